@@ -7,7 +7,7 @@
 namespace prowl {
 
 /// The library, and its function. It checks nothing; the caller owns the result.
-constexpr const char* kFormulationLibrary = "prowl_formulations";
+constexpr const char* kFormulationLibrary = "libprowl_formulations.so";
 constexpr const char* kMakeFormulation = "prowl_make_formulation";
 using MakeFormulation = MotionNlp* (*)(const Formulation&, const DiscreteProblem&, const Trajectory& guess);
 

@@ -38,9 +38,9 @@ bool is_in(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-PlanRecord read_resumable(const std::string& folder, const PackageSearch& search, const PlanRequest& request,
-                          Task& task) {
-  PlanRecord record = read_plan(folder, search);
+PlanRecord read_resumable(const std::string& folder, const PackageSearch& search, const OwnTerms& own_terms,
+                          const PlanRequest& request, Task& task) {
+  PlanRecord record = read_plan(folder, search, own_terms);
   std::vector<Mesh> meshes;
   const bool is_refined = refinement_goal(request, task).has_value();
   if (!is_refined) {

@@ -22,8 +22,8 @@ void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments);
 
 /// Reads the plan to resume. With --refine its mesh replaces task.mesh. Throws InputError with the
 /// folder if the plan has another task or mesh.
-PlanRecord read_resumable(const std::string& folder, const PackageSearch& search, const PlanRequest& request,
-                          Task& task);
+PlanRecord read_resumable(const std::string& folder, const PackageSearch& search, const OwnTerms& own_terms,
+                          const PlanRequest& request, Task& task);
 
 /// Writes checkpoints during the solve, as long as the result lives; null without --checkpoint. A
 /// resumed checkpoint in that folder is kept until a better one exists. Throws InputError if their

@@ -66,6 +66,10 @@ void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
       ->take_all();
 }
 
+void add_allow_libraries(CLI::App& verb, bool& allows) {
+  verb.add_flag("--allow-libraries", allows, "Run shared libraries of terms that the task file names");
+}
+
 void add_json(CLI::App& verb, bool& json) {
   verb.add_flag("--json", json, "Print one JSON object on stdout, also for errors")->group(kOutputOptions);
   verb.add_flag_callback("--quiet", be_quiet, "No progress on stderr; warnings and errors stay")->group(kOutputOptions);

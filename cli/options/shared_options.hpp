@@ -26,6 +26,7 @@ CLI::Validator one_of(const std::vector<std::string>& names);
 CLI::Option* add_task(CLI::App& verb, std::string& task);
 void add_plan_directory(CLI::App& verb, std::string& directory);           ///< the required folder of a plan
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
+void add_allow_libraries(CLI::App& verb, bool& allows);                    ///< --allow-libraries, for OwnTerms
 CLI::Option* add_only(CLI::App& verb, std::vector<std::string>& kinds);    ///< --only, for only()
 void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);  ///< --max-time, --max-iterations, --tolerance

@@ -19,11 +19,12 @@ namespace {
 struct CheckArguments {
   std::string directory;
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
   bool json = false;
 };
 
 int run_check(const CheckArguments& arguments) {
-  PlanRecord record = read_plan(arguments.directory, package_search(arguments.package_dirs));
+  PlanRecord record = read_plan(arguments.directory, package_search(arguments.package_dirs), arguments.own_terms);
   const CertificateGrade recorded = record.plan.certificate.grade;
   record.plan.certificate = certify({record.task.problem, record.plan.mesh}, record.plan.trajectory);
   const Certificate& certificate = record.plan.certificate;
@@ -52,6 +53,7 @@ void add_check_command(CLI::App& app, int& status) {
   add_plan_directory(*verb, arguments->directory);
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   set_footer(*verb, {"prowl check out/hyq_crouch", "prowl check out/hyq_crouch --json"}, "as prowl plan.");
   verb->callback([arguments, &status] { status = run_check(*arguments); });
 }

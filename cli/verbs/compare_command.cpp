@@ -31,6 +31,7 @@ using Names = std::vector<std::string>;
 struct CompareArguments {
   std::string task, out;
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
   Names dynamics, transcriptions, contacts, orientations, solvers;  ///< empty: the first of all
   std::optional<std::string> snopt_library;
   std::string guess = guess_names().front();
@@ -88,7 +89,7 @@ std::vector<ComparedRun> combinations(const CompareArguments& arguments, const M
 std::vector<Task> read_tasks(const CompareArguments& arguments) {
   const PackageSearch search = package_search(arguments.package_dirs);
   if (arguments.intervals.empty()) {
-    Task task = read_task_file(arguments.task, search, arguments.overrides);
+    Task task = read_task_file(arguments.task, search, arguments.overrides, arguments.own_terms);
     if (!task.has_intervals) {
       task.mesh = equal_steps_for_draft(task);
       print_note(fmt::format("on {} intervals, with which the trapezoid meets grade draft", task.mesh.num_intervals()));
@@ -99,7 +100,7 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
   for (const int intervals : arguments.intervals) {
     TaskOverrides overrides = arguments.overrides;
     overrides.intervals = intervals;
-    tasks.push_back(read_task_file(arguments.task, search, overrides));
+    tasks.push_back(read_task_file(arguments.task, search, overrides, arguments.own_terms));
   }
   return tasks;
 }
@@ -243,6 +244,7 @@ void add_compare_command(CLI::App& app, int& status) {
   add_folder(*verb, "--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   set_footer(*verb,
              {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",
               "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},

@@ -21,6 +21,7 @@ namespace {
 struct DiagnoseArguments {
   std::string task;
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
   double max_seconds = DiagnosisOptions().max_seconds;
   bool json = false;
 };
@@ -34,7 +35,7 @@ ExitStatus exit_status(const Diagnosis& diagnosis) {
 
 int run_diagnose(const DiagnoseArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
-  const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs));
+  const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), {}, arguments.own_terms);
   for (const std::string& line : implausibilities(task.problem, task.mesh)) print_note(line);
   DiagnosisOptions options{.solver = {}, .max_seconds = arguments.max_seconds};
   options.solver.interrupt = &interrupted;
@@ -61,6 +62,7 @@ void add_diagnose_command(CLI::App& app, int& status) {
       ->type_name("S");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   set_footer(
       *verb, {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
       "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, with or without a known cause; 6 "

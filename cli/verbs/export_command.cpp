@@ -35,6 +35,7 @@ void add_export_command(CLI::App& app, int& status) {
   add_python(*verb, arguments->python, "numpy, for mcap also mcap and mcap-ros2-support");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->allow_libraries);
   set_footer(*verb,
              {"prowl export out/hyq_crouch --format csv,npz --rate 500",
               "prowl export out/hyq_crouch --format mcap --simulation"},

@@ -21,6 +21,7 @@ void add_figures_command(CLI::App& app, int& status) {
   add_python(*verb, arguments->python, "numpy, scipy and matplotlib");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->allow_libraries);
   set_footer(*verb,
              {"prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch",
               "prowl figures out/hyq_crouch --joint lf_hfe_joint --out figures"},

@@ -35,6 +35,7 @@ struct PlanArguments {
   std::string warm_start;
   PlanRequest request{.solver = solver_names().front()};
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
   CheckpointArguments checkpoint;
@@ -93,10 +94,10 @@ std::optional<PlanRecord> read_earlier_plan(const PlanArguments& arguments, cons
                                             PlanRequest& request) {
   std::optional<PlanRecord> earlier_plan;
   if (!arguments.warm_start.empty()) {
-    earlier_plan = read_plan(arguments.warm_start, search);
+    earlier_plan = read_plan(arguments.warm_start, search, arguments.own_terms);
     request.warm_start = {.folder = arguments.warm_start, .option = "--warm-start " + arguments.warm_start};
   } else if (!arguments.checkpoint.resume.empty()) {
-    earlier_plan = read_resumable(arguments.checkpoint.resume, search, request, task);
+    earlier_plan = read_resumable(arguments.checkpoint.resume, search, arguments.own_terms, request, task);
     request.warm_start = {.resume = true, .folder = arguments.checkpoint.resume};
   }
   return earlier_plan;
@@ -124,7 +125,7 @@ void advise(const PlanArguments& arguments, const PlannedTask& planned, int stat
 int run_plan(const PlanArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   const PackageSearch search = package_search(arguments.package_dirs);
-  Task task = read_task_file(arguments.task, search, arguments.overrides);
+  Task task = read_task_file(arguments.task, search, arguments.overrides, arguments.own_terms);
   if (arguments.print_phases) return print_phases(task, arguments.json);
   PlanRequest request = arguments.request;
   check_options(request);
@@ -186,6 +187,7 @@ void add_plan_command(CLI::App& app, int& status) {
       "--robust", arguments->overrides.robust,
       "Keep margins for errors of start, masses, friction, ground and estimate, and for a push (docs/robust.md)");
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, including those of a gait, without planning");
   add_intervals(*verb, arguments->overrides)->group(kMeshOptions);

@@ -18,7 +18,7 @@ std::filesystem::path python_package();
 struct PythonVerb {
   std::string directory, out, python = default_python();
   std::vector<std::string> package_dirs;
-  bool json = false;
+  bool json = false, allow_libraries = false;
 };
 
 /// --python; `libraries`: requirements of the verb, in words.

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 struct ReportArguments {
   std::string directory, other, out;
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
   bool json = false;
 };
 
@@ -44,7 +45,7 @@ fs::path comparison_file(const fs::path& first, const fs::path& second) {
 /// Two plans in one page.
 WrittenReport write_comparison(const PlanRecord& plan, const ReportArguments& arguments, const fs::path& out,
                                const PackageSearch& search) {
-  const PlanRecord other = read_plan(arguments.other, search);
+  const PlanRecord other = read_plan(arguments.other, search, arguments.own_terms);
   const ReportInputs inputs = report_inputs(plan, arguments.directory);
   const ReportInputs compared = report_inputs(other, arguments.other);
   return write_page(report_page(inputs, search, &compared), out, ", of two plans", inputs.simulation.has_value());
@@ -70,6 +71,7 @@ void add_report_command(CLI::App& app, int& status) {
       ->type_name("FILE");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   set_footer(
       *verb,
       {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html",
@@ -81,7 +83,7 @@ void add_report_command(CLI::App& app, int& status) {
                          : arguments->other.empty() ? directory / kReportFile
                                                     : comparison_file(directory, arguments->other);
     const PackageSearch search = package_search(arguments->package_dirs);
-    const PlanRecord plan = read_plan(directory, search);
+    const PlanRecord plan = read_plan(directory, search, arguments->own_terms);
     const WrittenReport report = arguments->other.empty() ? write_report(plan, directory, out, search)
                                                           : write_comparison(plan, *arguments, out, search);
     if (arguments->json) {

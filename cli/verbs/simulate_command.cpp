@@ -34,6 +34,7 @@ constexpr const char* kRolloutOptions = "Rollout";
 struct SimulateArguments {
   std::string directory;
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
   bool json = false;
   bool report = false;
   std::string engine = "mujoco";
@@ -132,7 +133,7 @@ Outcome run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, 
 }
 
 int run_simulate(const SimulateArguments& arguments) {
-  const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
+  const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs), arguments.own_terms);
   const Tracker tracker = read_tracker(arguments.directory, plan.task.problem);
   check_writable(arguments.directory);
   const Outcome outcome =
@@ -236,6 +237,7 @@ void add_simulate_command(CLI::App& app, int& status) {
       ->type_name("HZ");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays the run in a browser");
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   add_mujoco_options(*verb, *arguments);
   add_rollout_options(*verb, *arguments);
   add_json(*verb, arguments->json);

@@ -27,6 +27,7 @@ constexpr const char* kPerturbations = "Perturbations";  ///< group of --help
 struct SweepArguments {
   std::string directory;
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
   SimulationOptions options;
   PerturbationRanges ranges;
   std::vector<std::string> only;
@@ -62,7 +63,7 @@ int run_sweep(const SweepArguments& arguments) {
   const PerturbationRanges ranges = only(arguments.only, arguments.ranges);
   check_mujoco();
   const std::atomic<bool>& interrupted = catch_interrupts();
-  const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
+  const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs), arguments.own_terms);
   check_writable(arguments.directory);
   const MotionProblem& problem = plan.task.problem;
   const Tracker tracker = read_tracker(arguments.directory, problem);
@@ -155,6 +156,7 @@ void add_sweep_command(CLI::App& app, int& status) {
   verb->add_flag("--open-loop", arguments->options.open_loop, "Apply the planned torques only, without feedback");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   set_footer(*verb,
              {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2",
               "prowl sweep out/hyq_crouch --n 10 --only ground,push"},

@@ -36,6 +36,7 @@ struct ViewArguments {
   bool one_mesh = false;
   bool json = false;
   std::vector<std::string> package_dirs;
+  OwnTerms own_terms;
 };
 
 void say_where(const ViewServer& server, bool json) {
@@ -53,7 +54,7 @@ void serve_until(const std::atomic<bool>& interrupted) {
 
 int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
   const PackageSearch search = package_search(arguments.package_dirs);
-  const PlanRecord record = read_plan(arguments.target, search);
+  const PlanRecord record = read_plan(arguments.target, search, arguments.own_terms);
   ViewServer server(arguments.port);
   server.show(report_page(report_inputs(record, arguments.target), search).html);
   say_where(server, arguments.json);
@@ -83,7 +84,7 @@ PlannedTask solve(const ViewArguments& arguments, const std::atomic<bool>& inter
 
 int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
   const PackageSearch search = package_search(arguments.package_dirs);
-  PlanRecord record{.task = read_task_file(arguments.target, search, arguments.overrides),
+  PlanRecord record{.task = read_task_file(arguments.target, search, arguments.overrides, arguments.own_terms),
                     .plan = {},
                     .versions = versions_with(arguments.solver)};
   const DiscreteProblem asked(record.task.problem, record.task.mesh);
@@ -133,6 +134,7 @@ void add_view_command(CLI::App& app, int& status) {
       ->group(kSolverOptions);
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
+  add_allow_libraries(*verb, arguments->own_terms.allows_libraries);
   set_footer(*verb, {"prowl view tasks/hyq/walk.toml", "prowl view out/hyq_crouch --port 8080"},
              "0 for a folder, as prowl plan for a task, after Ctrl-C. The page is that of prowl report, served on "
              "the loopback interface; for a task it has a slider over the iterates of the solver.");

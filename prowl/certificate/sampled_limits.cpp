@@ -103,8 +103,8 @@ class ForceChecks {
         least_load_("least load of a held foot", "N", Limits::force_over_weight * problem.robot.weight()),
         planned_("planned contact force", "N", Limits::planned_force_over_weight * problem.robot.weight()) {}
 
-  /// `at_end`: in the last interval of the phase.
-  void record(const TrajectoryPoint& point, ConstrainedDynamicsOracle& dynamics, bool at_node, bool at_end) {
+  /// `at_end`: in the last interval of the phase. Returns the true forces, 3 per contact of the robot.
+  Eigen::VectorXd record(const TrajectoryPoint& point, ConstrainedDynamicsOracle& dynamics, bool at_node, bool at_end) {
     const auto motion = true_motion(point, dynamics);
     acceleration_.record(motion.residual, point.time, "");
     const Phase& phase = problem_.phases[point.phase];
@@ -121,11 +121,12 @@ class ForceChecks {
       // The unilateral check reports a pull; here it only allows no friction.
       friction_.record(tangential - surface.friction * std::max(normal, 0.0), point.time, name);
     }
-    if (!at_node) return;  // between nodes the planned force is linear, the true one is not
+    if (!at_node) return motion.force;  // between nodes the planned force is linear, the true one is not
     for (std::size_t c = 0; c < problem_.robot.contacts().size(); ++c) {
       const Eigen::Vector3d error = (point.force - motion.force).segment<3>(3 * static_cast<Eigen::Index>(c));
       planned_.record(error.norm(), point.time, problem_.robot.contacts()[c].name);
     }
+    return motion.force;
   }
 
   void append_to(std::vector<CertificateCheck>& checks) const {
@@ -187,9 +188,10 @@ std::vector<CertificateCheck> sampled_limits(const DiscreteProblem& discrete, co
       const auto points = dynamics[point.phase].contact_points(point.q, point.v);
       contacts.record(point, points);
       swings.record(point, points);
-      forces.record(point, dynamics[point.phase], i == 0 || i == pieces, interval.ends_phase);
+      const bool is_end = i == 0 || i == pieces;
+      const Eigen::VectorXd force = forces.record(point, dynamics[point.phase], is_end, interval.ends_phase);
       joints.record(point);
-      terms.record(point, left, i == 0 ? left : i == pieces ? left + 1 : -1);
+      terms.record(point, force, left, i == 0 ? left : i == pieces ? left + 1 : -1);
     }
   }
   std::vector<CertificateCheck> checks;

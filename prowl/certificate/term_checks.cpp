@@ -25,6 +25,7 @@ struct TermChecks::Workspace {
   struct Check {
     const TermUse& use;
     std::vector<RobotFrame> frames;  ///< of its quantities; the base where one has none
+    std::vector<int> contacts;       ///< likewise; -1 where one has none
     WorstCase worst;
   };
 
@@ -54,7 +55,8 @@ struct TermChecks::Workspace {
     return sum / problem.robot.mass();
   }
 
-  VectorXd quantity(const TrajectoryPoint& point, Kind kind, const RobotFrame& frame) const {
+  VectorXd quantity(const TrajectoryPoint& point, const VectorXd& force, Kind kind, const RobotFrame& frame,
+                    int contact) const {
     switch (kind) {
       case Kind::position: return placement(frame.body).act(Vector3d(frame.placement.translation()));
       case Kind::orientation: return Matrix3d(placement(frame.body).rotation() * frame.placement.linear()).reshaped();
@@ -67,16 +69,18 @@ struct TermChecks::Workspace {
       case Kind::center_of_mass_velocity: return center_of_mass(true);
       case Kind::joints: return point.q.tail(problem.robot.nu());
       case Kind::joint_rates: return point.v.tail(problem.robot.nu());
+      case Kind::torques: return point.tau;
+      case Kind::force: return force.segment<3>(3 * contact);
     }
     return {};
   }
 
-  void record(const TrajectoryPoint& point, Check& check) {
+  void record(const TrajectoryPoint& point, const VectorXd& force, Check& check) {
     const std::vector<Quantity>& reads = check.use.term->reads();
     VectorXd y(size_of(reads, problem.robot)), f(check.use.term->num_rows());
     Eigen::Index first = 0;
     for (std::size_t i = 0; i < reads.size(); ++i) {
-      const VectorXd entries = quantity(point, reads[i].kind, check.frames[i]);
+      const VectorXd entries = quantity(point, force, reads[i].kind, check.frames[i], check.contacts[i]);
       y.segment(first, entries.size()) = entries;
       first += entries.size();
     }
@@ -89,43 +93,42 @@ struct TermChecks::Workspace {
   }
 };
 
-TermChecks::TermChecks(const DiscreteProblem& discrete)
-    : workspace_(new Workspace{discrete,
-                               discrete.problem,
-                               discrete.problem.robot.pinocchio().model,
-                               pinocchio::Data(discrete.problem.robot.pinocchio().model),
-                               {}}) {
+TermChecks::TermChecks(const DiscreteProblem& discrete) {
   const MotionProblem& problem = discrete.problem;
+  if (problem.terms.empty()) return;
+  const pinocchio::Model& model = problem.robot.pinocchio().model;
+  workspace_.reset(new Workspace{discrete, problem, model, pinocchio::Data(model), {}});
   for (const TermUse& use : problem.terms) {
     if (use.is_cost()) continue;
     std::vector<RobotFrame> frames;
+    std::vector<int> contacts;
     for (const Quantity& quantity : use.term->reads()) {
-      frames.push_back(is_of_frame(quantity.kind) ? robot_frame(problem.robot, quantity.frame) : RobotFrame());
+      frames.push_back(is_of_frame(quantity.kind) ? robot_frame(problem.robot, quantity.name) : RobotFrame());
+      contacts.push_back(quantity.kind == Kind::force ? problem.robot.contact_index(quantity.name) : -1);
     }
-    const std::string& unit = use.term->unit();
     workspace_->checks.push_back(
-        {use, std::move(frames),
-         WorstCase(kTermCheck + use.name + "'", unit, term_tolerance(problem.goal_tolerance, unit))});
+        {use, std::move(frames), std::move(contacts),
+         WorstCase(kTermCheck + use.name + "'", use.term->unit(), term_tolerance(problem, *use.term))});
   }
 }
 
 TermChecks::~TermChecks() = default;
 
-void TermChecks::record(const TrajectoryPoint& point, int left, int node) {
-  if (workspace_->checks.empty()) return;
+void TermChecks::record(const TrajectoryPoint& point, const VectorXd& force, int left, int node) {
+  if (!workspace_) return;
   const DiscreteProblem& discrete = workspace_->discrete;
   pinocchio::forwardKinematics(workspace_->model, workspace_->data, point.q, point.v);
   for (Workspace::Check& check : workspace_->checks) {
     const auto holds = [&](int k) {  // not by its time, which files round
-      const MeshNode& mesh_node = discrete.nodes[k];
-      return check.use.holds_at(mesh_node.phase, discrete.phase_mesh_of(k).node_time(mesh_node.node, 1.0));
+      return discrete.holds(check.use, discrete.nodes[k].phase, discrete.nodes[k].node);
     };
     const bool counts = check.use.is_moment() ? node >= 0 && holds(node) : holds(left) && holds(left + 1);
-    if (counts) workspace_->record(point, check);
+    if (counts) workspace_->record(point, force, check);
   }
 }
 
 void TermChecks::append_to(std::vector<CertificateCheck>& checks) const {
+  if (!workspace_) return;
   for (const Workspace::Check& check : workspace_->checks) check.worst.append_to(checks);
 }
 

@@ -7,13 +7,12 @@
 
 namespace prowl {
 
-void* load_function(const std::string& library, const char* function, const std::string& remedy) {
-  const std::string file = fmt::format("lib{}.so", library);
-  void* const handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+void* load_function(const std::filesystem::path& library, const char* function, const std::string& remedy) {
+  void* const handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const address = handle ? ::dlsym(handle, function) : nullptr;
   if (address) return address;
   const char* const reason = ::dlerror();
-  throw InputError(fmt::format("{} ({})", remedy, reason ? reason : file));
+  throw InputError(fmt::format("{} ({})", remedy, reason ? reason : library.string()));
 }
 
 }  // namespace prowl

@@ -37,6 +37,10 @@ struct DiscreteProblem {
   const PhaseMesh& phase_mesh_of(int k) const { return mesh.phases[nodes[k].phase]; }
   /// True if nodes k and k + 1 are the ends of a mesh interval; otherwise they are a phase transition.
   bool is_interval(int k) const { return nodes[k].h_out > 0.0; }
+  /// Whether a term counts at a node of a phase.
+  bool holds(const TermUse& use, int phase, int node) const {
+    return use.holds_at(phase, mesh.phases[phase].node_time(node, 1.0));
+  }
   std::string describe_node(int k) const;    ///< "phase 1 'stand', node 3"
   std::string describe_moment(int k) const;  ///< "phase 1 'stand', node 3, t = 0.600 s"
   /// Time of a boundary constraint [s].

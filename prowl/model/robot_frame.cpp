@@ -2,20 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "prowl/error.hpp"
 #include "prowl/model/pinocchio_model.hpp"
 #include "prowl/text/nearest_name.hpp"
 #include "prowl/text/shown_text.hpp"
 
 namespace prowl {
-
-std::vector<std::string> frame_names(const RobotModel& robot) {
-  std::vector<std::string> names;
-  for (const pinocchio::Frame& frame : robot.pinocchio().model.frames) {
-    if (frame.type == pinocchio::BODY) names.push_back(frame.name);
-  }
-  return names;
-}
 
 RobotFrame robot_frame(const RobotModel& robot, const std::string& name) {
   const pinocchio::Model& model = robot.pinocchio().model;
@@ -27,8 +21,10 @@ RobotFrame robot_frame(const RobotModel& robot, const std::string& name) {
     return result;
   }
   if (name == kBaseFrame) return {};
-  std::vector<std::string> names = frame_names(robot);
-  names.emplace_back(kBaseFrame);
+  std::vector<std::string> names = {kBaseFrame};
+  for (const pinocchio::Frame& frame : model.frames) {
+    if (frame.type == pinocchio::BODY) names.push_back(frame.name);
+  }
   throw InputError(fmt::format("robot '{}' has no link '{}'{}", robot.name(), shown(name), did_you_mean(name, names)));
 }
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <string>
-#include <vector>
 
 #include "prowl/model/robot_model.hpp"
 
@@ -16,9 +15,6 @@ struct RobotFrame {
 
 /// The floating base, unless a link has this name.
 inline constexpr const char* kBaseFrame = "base";
-
-/// Links of the URDF, in Pinocchio's order.
-std::vector<std::string> frame_names(const RobotModel& robot);
 
 /// The frame of a link, or of the base by the name "base". Throws InputError that names the nearest link.
 RobotFrame robot_frame(const RobotModel& robot, const std::string& name);

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
 #include "prowl/model/robot_frame.hpp"
+#include "prowl/motion/contradicting_terms.hpp"
 #include "prowl/motion/term_evaluation.hpp"
+#include "prowl/terms/term_derivatives.hpp"
 
 namespace prowl {
 
@@ -20,15 +24,40 @@ template <class... Args>
   throw InputError(field + ": " + fmt::format(format, std::forward<Args>(args)...));
 }
 
-void check_frames(const MotionProblem& problem, const std::string& field, const Term& term) {
+void check_names(const MotionProblem& problem, const std::string& field, const Term& term) {
+  if (term.reads().empty()) refuse_term(field + ".term", "reads nothing; need one quantity or more");
+  if (term.num_rows() == 0) refuse_term(field + ".term", "has no rows; need one or more");
   for (const Quantity& quantity : term.reads()) {
-    if (!is_of_frame(quantity.kind)) continue;
     try {
-      robot_frame(problem.robot, quantity.frame);
+      if (is_of_frame(quantity.kind)) robot_frame(problem.robot, quantity.name);
+      if (quantity.kind == Quantity::Kind::force) problem.robot.contact_index(quantity.name);
     } catch (const InputError& error) {
-      refuse_term(field + ".frame", "{}", error.what());
+      refuse_term(field + (is_of_frame(quantity.kind) ? ".frame" : ".contact"), "{}", error.what());
     }
   }
+}
+
+/// At a moving state near the start, without its symmetries: at them wrong derivatives may be right.
+void check_derivatives(const MotionProblem& problem, const std::string& field, const TermUse& use) {
+  const RobotModel& robot = problem.robot;
+  const auto mixed = [](Eigen::Index size, double largest) -> VectorXd {
+    return largest * VectorXd::LinSpaced(size, 1.0, static_cast<double>(size)).array().sin();
+  };
+  const VectorXd q = integrate(problem.start_configuration(), mixed(robot.nv(), 0.2)), v = mixed(robot.nv(), 1.0);
+  const VectorXd tau = mixed(robot.nu(), robot.weight() * robot.size());
+  std::vector<int> contacts(robot.contacts().size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i] = static_cast<int>(i);
+  const VectorXd forces = mixed(3 * std::ssize(contacts), robot.weight());
+  RigidBodyTerms kinematics(robot);
+  kinematics.update_kinematics(q);
+  TermEvaluation term(robot, use, contacts);
+  try {
+    term.evaluate({kinematics, q, v, tau, forces});
+  } catch (const NumericalError&) {
+    return;  // not defined there
+  }
+  const std::string wrong = wrong_derivative(robot, *use.term, term.reading());
+  if (!wrong.empty()) refuse_term(field + ".term", "{}", wrong);
 }
 
 void check_moment(const MotionProblem& problem, const std::string& field, PhaseFraction moment) {
@@ -75,20 +104,37 @@ void check_limit(const std::string& field, const TermUse& use) {
   if (!binds) refuse_term(field, "limits nothing; need one finite bound or more");
 }
 
+void check_weight(const std::string& field, const Eigen::MatrixXd& weight, int rows) {
+  constexpr double kRounding = 1e-12;  // of the largest entry
+  if (weight.rows() != rows || weight.cols() != rows) {
+    refuse_term(field, "{} x {} entries are not allowed; need {} x {}", weight.rows(), weight.cols(), rows, rows);
+  }
+  if (!weight.allFinite()) refuse_term(field, "an entry that is not finite is not allowed");
+  const double rounding = kRounding * weight.cwiseAbs().maxCoeff();
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (std::abs(weight(i, j) - weight(j, i)) <= rounding) continue;
+      refuse_term(field, "is not symmetric: entry {}, {} is {}, entry {}, {} is {}", i, j, weight(i, j), j, i,
+                  weight(j, i));
+    }
+  }
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(weight, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+  if (least < -rounding) {
+    refuse_term(field, "is not positive semidefinite: an eigenvalue is {:.4g}; need none below zero", least);
+  }
+}
+
 void check_term_cost(const std::string& field, const TermUse& use) {
   const int rows = use.term->num_rows();
   check_entries(field + ".lower", use.lower, 0);  // a cost has no bounds
   check_entries(field + ".upper", use.upper, 0);
-  check_entries(field + ".weight", use.weight, rows);
   check_entries(field + ".reference", use.reference, rows);
   for (int row = 0; row < rows; ++row) {
-    if (!std::isfinite(use.weight(row)) || use.weight(row) < 0.0) {
-      refuse_term(field + ".weight", "{} is not allowed; need a finite number >= 0", use.weight(row));
-    }
-    if (!std::isfinite(use.reference(row))) {
-      refuse_term(field + ".reference", "{} is not allowed; need a finite number", use.reference(row));
-    }
+    if (std::isfinite(use.reference(row))) continue;
+    refuse_term(field + ".reference", "{} is not allowed; need a finite number", use.reference(row));
   }
+  check_weight(field + ".weight", use.weight, rows);
 }
 
 /// No later motion can change a fixed start.
@@ -96,10 +142,11 @@ void check_term_at_start(const MotionProblem& problem, const std::string& field,
                          const RigidBodyTerms& kinematics) {
   const BoundaryConstraint& start = problem.start();
   const bool is_known = start.fixes_configuration() && (start.fixes_velocity() || !reads_rates(*use.term));
-  if (!is_known || !use.holds_at(0, 0.0)) return;
-  TermEvaluation term(problem.robot, use);
+  if (!is_known || reads_loads(*use.term) || !use.holds_at(0, 0.0)) return;
+  TermEvaluation term(problem.robot, use, {});
+  const VectorXd none;
   try {
-    term.evaluate(kinematics, start.q_ref, start.velocity_lower);
+    term.evaluate({kinematics, start.q_ref, start.velocity_lower, none, none});
   } catch (const NumericalError& error) {
     refuse_term(field, "at the start: {}; need another start or reference", error.what());
   }
@@ -107,7 +154,7 @@ void check_term_at_start(const MotionProblem& problem, const std::string& field,
   for (int row = 0; row < use.term->num_rows(); ++row) {
     const double value = term.value()(row);
     const double outside = std::max(use.lower(row) - value, value - use.upper(row));
-    if (outside <= term_tolerance(problem.goal_tolerance, use.term->unit())) continue;
+    if (outside <= term_tolerance(problem, *use.term)) continue;
     refuse_term(field, "at the start {} is {:.4g} {}, {:.4g} beyond its bound; need another start, or a later moment",
                 use.term->rows()[row], value, use.term->unit(), outside);
   }
@@ -116,19 +163,19 @@ void check_term_at_start(const MotionProblem& problem, const std::string& field,
 /// Every cycle must keep the limits and have the cost of the first.
 void check_term_in_cycles(const MotionProblem& problem, const std::string& field, const TermUse& use) {
   constexpr double kSame = 1e-9;
-  if (!problem.cycle || problem.cycle->count == 1) return;
-  TermEvaluation term(problem.robot, use);
+  if (!problem.cycle || problem.cycle->count == 1 || reads_loads(*use.term)) return;
+  TermEvaluation term(problem.robot, use, {});
   RigidBodyTerms kinematics(problem.robot);
-  const VectorXd& q = problem.start_configuration();
+  const VectorXd &q = problem.start_configuration(), ones = VectorXd::Ones(problem.robot.nv()), none;
   const auto value = [&](const VectorXd& at) -> VectorXd {
     kinematics.update_kinematics(at);
-    term.evaluate(kinematics, at, VectorXd::Ones(problem.robot.nv()));
+    term.evaluate({kinematics, at, ones, none, none});
     return term.value();
   };
   const VectorXd change = value(problem.cycle->moved_configuration(q)) - value(q);
   for (int row = 0; row < use.term->num_rows(); ++row) {
-    const bool counts =
-        use.is_cost() ? use.weight(row) > 0.0 : std::isfinite(use.lower(row)) || std::isfinite(use.upper(row));
+    const bool counts = use.is_cost() ? !use.weight.row(row).isZero(0.0)
+                                      : std::isfinite(use.lower(row)) || std::isfinite(use.upper(row));
     if (!counts || std::abs(change(row)) <= kSame) continue;
     refuse_term(field, "{} changes by {:.4g} {} from cycle to cycle; need a quantity that repeats itself",
                 use.term->rows()[row], change(row), use.term->unit());
@@ -149,12 +196,14 @@ void check_terms(const MotionProblem& problem) {
     for (std::size_t other = 0; other < i; ++other) {
       if (problem.terms[other].name == use.name) refuse_term(field + ".name", "'{}' is already another term", use.name);
     }
-    check_frames(problem, field, *use.term);
+    check_names(problem, field, *use.term);
+    check_derivatives(problem, field, use);
     check_term_span(problem, field, use);
     use.is_cost() ? check_term_cost(field, use) : check_limit(field, use);
     check_term_at_start(problem, field, use, kinematics);
     check_term_in_cycles(problem, field, use);
   }
+  if (const std::string what = contradicting_terms(problem); !what.empty()) throw InputError("terms: " + what);
 }
 
 }  // namespace prowl

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "prowl/error.hpp"
 #include "prowl/model/body_tree.hpp"
 #include "prowl/model/robot_frame.hpp"
@@ -11,141 +13,269 @@ namespace prowl {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Kind = Quantity::Kind;
 
-TermEvaluation::TermEvaluation(const RobotModel& robot, const TermUse& use)
+namespace {
+
+bool is_of_points(Kind kind) { return !is_of_joints(kind) && kind != Kind::force; }
+
+}  // namespace
+
+TermEvaluation::TermEvaluation(const RobotModel& robot, const TermUse& use, const std::vector<int>& contacts)
     : name_(use.name),
       term_(use.term),
-      reads_rates_(prowl::reads_rates(*use.term)),
+      reads_rates_(false),
       kinematics_({}),
       at_rest_(VectorXd::Zero(robot.nv())),
-      second_(robot.nv()) {
+      mixed_(robot.nv(), robot.nv()) {
   std::vector<BodyPoint> points;
-  Index size = 0;
+  Index entry = 0;
   for (const Quantity& quantity : term_->reads()) {
-    y_.resize(size);  // where the next entries begin
-    if (is_of_frame(quantity.kind)) {
-      add_frame(robot, quantity, points);
-    } else if (is_of_joints(quantity.kind)) {
-      joints_.push_back({size, is_rate(quantity.kind)});
-    } else {
-      add_center_of_mass(robot, is_rate(quantity.kind), points);
-    }
-    size += size_of(quantity.kind, robot);
+    Block block = block_of(robot, quantity, contacts);
+    block.entry = entry;
+    block.point_row = 3 * std::ssize(points);
+    points.insert(points.end(), block.points.begin(), block.points.end());
+    reads_rates_ = reads_rates_ || (is_rate(quantity.kind) && is_of_points(quantity.kind));
+    entry += block.size;
+    blocks_.push_back(std::move(block));
   }
   kinematics_ = PointKinematics(std::move(points));
-  const Index rows = term_->num_rows(), nv = robot.nv();
-  y_.resize(size);
-  y_q_.resize(size, nv);
-  y_v_.resize(size, nv);
+  const Index rows = term_->num_rows();
+  y_.setZero(entry);
   value_.resize(rows);
-  f_y_.resize(rows, size);
-  f_yy_.resize(size, size);
-  dq_.resize(rows, nv);
-  dv_.setZero(rows, nv);
+  f_y_.resize(rows, entry);
+  f_yy_.resize(entry, entry);
 }
 
-void TermEvaluation::add_frame(const RobotModel& robot, const Quantity& quantity, std::vector<BodyPoint>& points) {
-  using Kind = BodyPoint::Kind;
-  const RobotFrame frame = robot_frame(robot, quantity.frame);
-  const auto add = [&](const Eigen::Vector3d& in_body, Kind kind) {
-    sums_.push_back({y_.size(), is_rate(quantity.kind), 3 * std::ssize(points), {1.0}});
-    points.push_back({frame.body, in_body, kind});
-    y_.resize(y_.size() + 3);
-  };
-  if (quantity.kind == Quantity::Kind::orientation || quantity.kind == Quantity::Kind::orientation_rate) {
-    for (const Index axis : {0, 1, 2}) add(frame.placement.linear().col(axis), Kind::direction);
-  } else {
-    add(frame.placement.translation(), Kind::point);
+TermEvaluation::Block TermEvaluation::block_of(const RobotModel& robot, const Quantity& quantity,
+                                               const std::vector<int>& contacts) const {
+  Block block{.kind = quantity.kind,
+              .entry = 0,
+              .size = size_of(quantity.kind, robot),
+              .points = {},
+              .weights = {},
+              .point_row = 0,
+              .force_row = -1,
+              .variables = {},
+              .slopes = {}};
+  if (is_of_frame(quantity.kind)) {
+    const RobotFrame frame = robot_frame(robot, quantity.name);
+    if (block.size == 3) {
+      block.points = {{frame.body, frame.placement.translation(), BodyPoint::Kind::point}};
+    } else {
+      for (const Index axis : {0, 1, 2}) {
+        block.points.push_back({frame.body, frame.placement.linear().col(axis), BodyPoint::Kind::direction});
+      }
+    }
+  } else if (quantity.kind == Kind::force) {
+    const auto found = std::ranges::find(contacts, robot.contact_index(quantity.name));
+    if (found != contacts.end()) block.force_row = 3 * (found - contacts.begin());
+  } else if (is_of_points(quantity.kind)) {
+    const std::vector<RigidBody> bodies = body_tree(robot).bodies;
+    for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+      block.points.push_back({.body = body, .in_body = bodies[body].center});
+      block.weights.push_back(bodies[body].mass / robot.mass());
+    }
   }
+  return block;
 }
 
-void TermEvaluation::add_center_of_mass(const RobotModel& robot, bool is_rate, std::vector<BodyPoint>& points) {
-  Sum sum{y_.size(), is_rate, 3 * std::ssize(points), {}};
-  const std::vector<RigidBody> bodies = body_tree(robot).bodies;
-  for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
-    points.push_back({.body = body, .in_body = bodies[body].center});
-    sum.weights.push_back(bodies[body].mass / robot.mass());
+void TermEvaluation::lay_out(const RigidBodyTerms& kinematics, Index num_variables) {
+  const Index nv = at_rest_.size(), nu = nv - 6;
+  num_variables_ = num_variables;
+  chains_.clear();
+  Index widest = 0, tallest = 0;
+  first_ = num_variables;
+  last_ = 0;
+  for (Block& block : blocks_) {
+    block.variables.clear();
+    for (const BodyPoint& point : block.points) chains_.push_back(kinematics.body_chain(point.body));
+    if (block.is_identity()) {
+      const Index first = block.kind == Kind::torques ? 3 * nv : block.kind == Kind::joint_rates ? nv + 6 : 6;
+      for (Index i = 0; i < nu; ++i) block.variables.push_back(first + i);
+    } else if (block.kind == Kind::force) {
+      for (Index i = 0; block.force_row >= 0 && i < num_variables; ++i) block.variables.push_back(i);
+    } else {
+      const std::vector<int>& chain = chains_.back();  // of one body
+      if (block.weights.empty()) block.variables.assign(chain.begin(), chain.end());
+      for (Index i = 0; !block.weights.empty() && i < nv; ++i) block.variables.push_back(i);
+      const Index count = std::ssize(block.variables);
+      for (Index i = 0; is_rate(block.kind) && i < count; ++i) block.variables.push_back(nv + block.variables[i]);
+    }
+    if (!block.is_identity()) block.slopes.setZero(block.size, std::ssize(block.variables));
+    for (const Index variable : block.variables) {
+      first_ = std::min(first_, variable);
+      last_ = std::max(last_, variable + 1);
+    }
+    widest = std::max<Index>(widest, std::ssize(block.variables));
+    tallest = std::max(tallest, block.size);
   }
-  sums_.push_back(std::move(sum));
+  first_ = std::min(first_, last_);
+  bent_.resize(tallest, widest);
+  product_.resize(widest, widest);
+  dx_.resize(term_->num_rows(), last_ - first_);
 }
 
 void TermEvaluation::check_finite(bool is_finite, const char* what) const {
   if (!is_finite) throw NumericalError(fmt::format("term '{}': {} is not finite", name_, what));
 }
 
-void TermEvaluation::evaluate(const RigidBodyTerms& kinematics, const VectorXd& q, const VectorXd& v) {
-  kinematics_.set_configuration(kinematics);
-  if (reads_rates_) kinematics_.set_motion(at_rest_, v);  // the acceleration of a = v at rest is J v
-  for (const Sum& sum : sums_) {
-    const VectorXd& of_points = sum.is_rate ? kinematics_.acceleration() : kinematics_.positions();
-    Eigen::Vector3d total = Eigen::Vector3d::Zero();
-    for (Index i = 0; i < std::ssize(sum.weights); ++i) {
-      total += sum.weights[i] * of_points.segment<3>(sum.first + 3 * i);
+void TermEvaluation::read_entries(const NodeReading& at, const Block& block) {
+  auto entries = y_.segment(block.entry, block.size);
+  if (block.is_identity()) {
+    const VectorXd& of_all = block.kind == Kind::torques ? at.tau : block.kind == Kind::joint_rates ? at.v : at.q;
+    entries = of_all.tail(block.size);
+  } else if (block.kind == Kind::force) {
+    if (block.force_row >= 0) entries = at.forces.segment<3>(block.force_row);
+  } else {
+    const VectorXd& of_points = is_rate(block.kind) ? kinematics_.acceleration() : kinematics_.positions();
+    if (block.weights.empty()) {
+      entries = of_points.segment(block.point_row, block.size);
+      return;
     }
-    y_.segment<3>(sum.entry) = total;
+    entries.setZero();
+    for (Index i = 0; i < std::ssize(block.weights); ++i) {
+      entries += block.weights[i] * of_points.segment<3>(block.point_row + 3 * i);
+    }
   }
-  const Index nu = q.size() - 7;
-  for (const Joints& joints : joints_) y_.segment(joints.entry, nu) = (joints.is_rate ? v : q).tail(nu);
+}
+
+void TermEvaluation::evaluate(const NodeReading& at) {
+  if (num_variables_ == 0) lay_out(at.kinematics, 3 * at_rest_.size() + at.q.size() - 7);
+  kinematics_.set_configuration(at.kinematics);
+  if (reads_rates_) kinematics_.set_motion(at_rest_, at.v);  // the acceleration of a = v at rest is J v
+  for (const Block& block : blocks_) read_entries(at, block);
   value_.setZero();
   term_->value(y_, value_);
   check_finite(value_.allFinite(), "its value");
 }
 
-void TermEvaluation::differentiate() {
-  y_q_.setZero();
-  if (reads_rates_) {
-    y_v_.setZero();
-    kinematics_.acceleration_dq(rate_dq_);
+void TermEvaluation::read_slopes(const MatrixXd& forces_dx, Block& block) const {
+  if (block.is_identity()) return;
+  if (block.kind == Kind::force) {
+    if (block.force_row >= 0) block.slopes = forces_dx.middleRows<3>(block.force_row);
+    return;
   }
-  for (const Sum& sum : sums_) {
-    const MatrixXd& by_q = sum.is_rate ? rate_dq_ : kinematics_.positions_dq();
-    for (Index i = 0; i < std::ssize(sum.weights); ++i) {
-      const Index row = sum.first + 3 * i;
-      y_q_.middleRows<3>(sum.entry) += sum.weights[i] * by_q.middleRows<3>(row);
-      if (sum.is_rate) y_v_.middleRows<3>(sum.entry) += sum.weights[i] * kinematics_.jacobian().middleRows<3>(row);
+  const bool is_rate_of_points = is_rate(block.kind), is_sum = !block.weights.empty();
+  const MatrixXd& by_q = is_rate_of_points ? rate_dq_ : kinematics_.positions_dq();
+  const Index in_v = std::ssize(block.variables) / 2;  // where the columns of v begin
+  if (is_sum) block.slopes.setZero();
+  for (Index i = 0; i < std::ssize(block.points); ++i) {
+    const Index row = block.point_row + 3 * i, to = is_sum ? 0 : 3 * i;
+    const double weight = is_sum ? block.weights[i] : 1.0;
+    const std::vector<int>& chain = chains_[block.point_row / 3 + i];
+    for (Index k = 0; k < std::ssize(chain); ++k) {
+      const Index dof = chain[k], column = is_sum ? dof : k;
+      const auto add = [&](Index at, const MatrixXd& of_points) {
+        auto slope = block.slopes.block<3, 1>(to, at);
+        if (is_sum) {
+          slope += weight * of_points.block<3, 1>(row, dof);
+        } else {
+          slope = of_points.block<3, 1>(row, dof);
+        }
+      };
+      add(column, by_q);
+      if (is_rate_of_points) add(in_v + column, kinematics_.jacobian());
     }
   }
-  const Index nu = y_q_.cols() - 6;
-  for (const Joints& joints : joints_) {
-    (joints.is_rate ? y_v_ : y_q_).block(joints.entry, 6, nu, nu).setIdentity();
+}
+
+void TermEvaluation::add_slopes(const Block& block) {
+  const auto of_block = f_y_.middleCols(block.entry, block.size);
+  for (Index k = 0; k < std::ssize(block.variables); ++k) {
+    auto column = dx_.col(block.variables[k] - first_);
+    if (block.is_identity()) {
+      column += of_block.col(k);
+    } else {
+      column.noalias() += of_block.lazyProduct(block.slopes.col(k));
+    }
   }
+}
+
+void TermEvaluation::differentiate(const MatrixXd& forces_dx) {
+  const bool reads_forces = std::ranges::any_of(blocks_, [](const Block& block) { return block.force_row >= 0; });
+  if (reads_forces && num_variables_ != forces_dx.cols()) {
+    num_variables_ = forces_dx.cols();
+    for (Block& block : blocks_) {
+      if (block.force_row < 0) continue;
+      block.variables.clear();
+      for (Index i = 0; i < num_variables_; ++i) block.variables.push_back(i);
+    }
+    first_ = 0;
+    last_ = num_variables_;
+    bent_.resize(bent_.rows(), last_);
+    product_.resize(last_, last_);
+    dx_.resize(dx_.rows(), last_);
+  }
+  if (reads_rates_) kinematics_.acceleration_dq(rate_dq_);
+  for (Block& block : blocks_) read_slopes(forces_dx, block);
   f_y_.setZero();
   term_->jacobian(y_, f_y_);
   check_finite(f_y_.allFinite(), "its Jacobian");
-  dq_.noalias() = f_y_ * y_q_;
-  if (reads_rates_) dv_.noalias() = f_y_ * y_v_;
+  dx_.setZero();
+  for (const Block& block : blocks_) add_slopes(block);
 }
 
-void TermEvaluation::add_hessian(const VectorXd& multipliers, Eigen::Ref<MatrixXd> qq, Eigen::Ref<MatrixXd> vq,
-                                 Eigen::Ref<MatrixXd> vv) {
+// Y_aᵀ F_ab Y_b and its transpose, of the second derivatives F in y.
+void TermEvaluation::add_bending(const Block& a, const Block& b, Eigen::Ref<MatrixXd> hessian) {
+  const auto bending = f_yy_.block(a.entry, b.entry, a.size, b.size);
+  if (bending.isZero(0.0)) return;
+  const Index rows = std::ssize(a.variables), columns = std::ssize(b.variables);
+  auto bent = bent_.topLeftCorner(a.size, columns);
+  if (b.is_identity()) {
+    bent = bending;
+  } else {
+    bent.noalias() = bending * b.slopes;
+  }
+  auto product = product_.topLeftCorner(rows, columns);
+  if (a.is_identity()) {
+    product = bent;
+  } else {
+    product.noalias() = a.slopes.transpose() * bent;
+  }
+  for (Index j = 0; j < columns; ++j) {
+    for (Index i = 0; i < rows; ++i) hessian(a.variables[i], b.variables[j]) += product(i, j);
+  }
+  if (&a == &b) return;
+  for (Index j = 0; j < columns; ++j) {
+    for (Index i = 0; i < rows; ++i) hessian(b.variables[j], a.variables[i]) += product(i, j);
+  }
+}
+
+void TermEvaluation::add_hessian(const VectorXd& multipliers, Eigen::Ref<MatrixXd> hessian) {
   f_yy_.setZero();
   term_->hessian(y_, multipliers, f_yy_);
   check_finite(f_yy_.allFinite(), "its Hessian");
-  if (!f_yy_.isZero(0.0)) {
-    bent_.noalias() = f_yy_ * y_q_;
-    qq.noalias() += y_q_.transpose() * bent_;
-    if (reads_rates_) {
-      vq.noalias() += y_v_.transpose() * bent_;
-      bent_.noalias() = f_yy_ * y_v_;
-      vv.noalias() += y_v_.transpose() * bent_;
-    }
+  for (std::size_t a = 0; a < blocks_.size(); ++a) {
+    for (std::size_t b = 0; b <= a; ++b) add_bending(blocks_[a], blocks_[b], hessian);
   }
-  if (sums_.empty()) return;
+  if (kinematics_.rows() == 0) return;
   pull_.noalias() = f_y_.transpose() * multipliers;
   on_position_.setZero(kinematics_.rows());
   on_rate_.setZero(kinematics_.rows());
-  for (const Sum& sum : sums_) {
-    VectorXd& on_points = sum.is_rate ? on_rate_ : on_position_;
-    for (Index i = 0; i < std::ssize(sum.weights); ++i) {
-      on_points.segment<3>(sum.first + 3 * i) += sum.weights[i] * pull_.segment<3>(sum.entry);
+  for (const Block& block : blocks_) {
+    if (block.points.empty()) continue;
+    VectorXd& on_points = is_rate(block.kind) ? on_rate_ : on_position_;
+    if (block.weights.empty()) on_points.segment(block.point_row, block.size) = pull_.segment(block.entry, block.size);
+    for (Index i = 0; i < std::ssize(block.weights); ++i) {
+      on_points.segment<3>(block.point_row + 3 * i) = block.weights[i] * pull_.segment<3>(block.entry);
     }
   }
-  kinematics_.add_position_hessian(on_position_, 1.0, qq);
+  const Index nv = at_rest_.size();
+  kinematics_.add_position_hessian(on_position_, 1.0, hessian.topLeftCorner(nv, nv));
   if (!reads_rates_) return;
-  second_.set_zero();
-  kinematics_.add_acceleration_hessian(on_rate_, 0.0, second_);
-  qq += second_.qq;
-  vq += second_.qa.transpose();
+  kinematics_.add_acceleration_hessian_qq(on_rate_, hessian.topLeftCorner(nv, nv));
+  mixed_.setZero();  // the derivative of Jᵀ pull in q
+  kinematics_.add_force_derivative(on_rate_, mixed_);
+  hessian.block(nv, 0, nv, nv) += mixed_;
+  hessian.block(0, nv, nv, nv) += mixed_.transpose();
+}
+
+void TermEvaluation::add_force_pull(const VectorXd& multipliers, VectorXd& pull) {
+  for (const Block& block : blocks_) {
+    if (block.force_row < 0) continue;
+    pull.segment<3>(block.force_row).noalias() += f_y_.middleCols<3>(block.entry).transpose() * multipliers;
+  }
 }
 
 }  // namespace prowl

@@ -10,57 +10,74 @@
 
 namespace prowl {
 
-/// A term at one node: value and derivatives in q and v, by the chain rule through the kinematics:
+/// What terms read at one node of a motion.
+struct NodeReading {
+  const RigidBodyTerms& kinematics;  ///< at the configuration q
+  const Eigen::VectorXd &q, &v, &tau;
+  const Eigen::VectorXd& forces;  ///< 3 per contact that the evaluation was made for, world frame [N]
+};
+
+/// A term at one node: value and derivatives in the variables x = (tangent of q | v | a | tau | others) of the node, by
+/// the chain rule:
 ///
-///   df = f_y Y,   d²(lambda . f) = Yᵀ (lambda . f_yy) Y + (lambda . f_y) . Y',   Y = dy / d(q, v)
+///   df = f_y Y,   d²(lambda . f) = Yᵀ (lambda . f_yy) Y + (lambda . f_y) . Y',   Y = dy / dx
 ///
 /// One object holds the work space of one thread; results stay until the next evaluation.
 class TermEvaluation {
  public:
-  TermEvaluation(const RobotModel& robot, const TermUse& use);
+  /// `contacts`: those whose forces are known, as indices of the robot's; others are open.
+  TermEvaluation(const RobotModel& robot, const TermUse& use, const std::vector<int>& contacts);
 
-  /// `kinematics`: at the configuration q. Throws NumericalError, with the name of the use, if f is not finite.
-  void evaluate(const RigidBodyTerms& kinematics, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  /// Throws NumericalError, with the name of the use, if f is not finite.
+  void evaluate(const NodeReading& at);
+  const Eigen::VectorXd& reading() const { return y_; }
   const Eigen::VectorXd& value() const { return value_; }
 
-  /// After evaluate(). Throws likewise.
-  void differentiate();
-  const Eigen::MatrixXd& dq() const { return dq_; }  ///< in the tangent of configuration.hpp
-  const Eigen::MatrixXd& dv() const { return dv_; }
-  bool reads_rates() const { return reads_rates_; }  ///< otherwise dv() is zero
+  /// After evaluate(). `forces_dx`: derivative of the forces in all variables of the node. Throws likewise.
+  void differentiate(const Eigen::MatrixXd& forces_dx);
+  /// In the variables of the node from first_variable() on: those that the term depends on.
+  const Eigen::MatrixXd& dx() const { return dx_; }
+  Eigen::Index first_variable() const { return first_; }
 
-  /// After differentiate(): adds the second derivatives of multipliers . f; vq has one row for each velocity.
-  void add_hessian(const Eigen::VectorXd& multipliers, Eigen::Ref<Eigen::MatrixXd> qq, Eigen::Ref<Eigen::MatrixXd> vq,
-                   Eigen::Ref<Eigen::MatrixXd> vv);
+  /// After differentiate(): adds the second derivatives of multipliers . f, with forces as linear in the variables.
+  void add_hessian(const Eigen::VectorXd& multipliers, Eigen::Ref<Eigen::MatrixXd> hessian);
+  /// Adds the derivative of multipliers . f in the forces. It multiplies their second derivatives.
+  void add_force_pull(const Eigen::VectorXd& multipliers, Eigen::VectorXd& pull);
 
  private:
-  /// Three entries of y: a weighted sum of points, or its rate.
-  struct Sum {
-    Eigen::Index entry;
-    bool is_rate;
-    Eigen::Index first;           ///< row of its first point
-    std::vector<double> weights;  ///< of the points
-  };
-  /// nu entries of y.
-  struct Joints {
-    Eigen::Index entry;
-    bool is_rate;
+  /// The part of Y for one quantity, in the variables on which it depends: base and joints before its body.
+  struct Block {
+    Quantity::Kind kind;
+    Eigen::Index entry, size;             ///< rows of Y
+    std::vector<BodyPoint> points;        ///< of which it is a weighted sum, three rows each
+    std::vector<double> weights;          ///< of the points; empty: each point has rows of its own
+    Eigen::Index point_row;               ///< of its first point in kinematics_
+    Eigen::Index force_row;               ///< of a force; -1 if it is not known
+    std::vector<Eigen::Index> variables;  ///< columns of `slopes`; set by lay_out()
+    Eigen::MatrixXd slopes;               ///< size x number of variables; empty if it is the identity
+    bool is_identity() const { return is_of_joints(kind); }
   };
 
-  void add_frame(const RobotModel& robot, const Quantity& quantity, std::vector<BodyPoint>& points);
-  void add_center_of_mass(const RobotModel& robot, bool is_rate, std::vector<BodyPoint>& points);
+  Block block_of(const RobotModel& robot, const Quantity& quantity, const std::vector<int>& contacts) const;
+  /// Sets the variables of all blocks. `num_variables`: of the node.
+  void lay_out(const RigidBodyTerms& kinematics, Eigen::Index num_variables);
+  void read_entries(const NodeReading& at, const Block& block);
+  void read_slopes(const Eigen::MatrixXd& forces_dx, Block& block) const;
+  void add_slopes(const Block& block);
+  void add_bending(const Block& a, const Block& b, Eigen::Ref<Eigen::MatrixXd> hessian);
   void check_finite(bool is_finite, const char* what) const;
 
   std::string name_;
   std::shared_ptr<const Term> term_;
   bool reads_rates_;
-  std::vector<Sum> sums_;
-  std::vector<Joints> joints_;
+  std::vector<Block> blocks_;
+  std::vector<std::vector<int>> chains_;  ///< of the points in kinematics_
+  Eigen::Index first_ = 0, last_ = 0;     ///< variables: the first, and the one after the last
+  Eigen::Index num_variables_ = 0;        ///< for which the blocks are laid out
   PointKinematics kinematics_;
   // Work space.
   Eigen::VectorXd at_rest_, y_, value_, pull_, on_position_, on_rate_;
-  Eigen::MatrixXd y_q_, y_v_, rate_dq_, f_y_, f_yy_, bent_, dq_, dv_;
-  SecondDerivatives second_;
+  Eigen::MatrixXd rate_dq_, f_y_, f_yy_, bent_, product_, dx_, mixed_;
 };
 
 }  // namespace prowl

@@ -24,18 +24,33 @@ bool reads_rates(const Term& term) {
   return std::ranges::any_of(term.reads(), [](const Quantity& quantity) { return is_rate(quantity.kind); });
 }
 
-double natural_size(const RobotModel& robot, const std::string& unit) {
+bool reads_loads(const Term& term) {
+  return std::ranges::any_of(term.reads(), [](const Quantity& quantity) { return is_load(quantity.kind); });
+}
+
+double natural_size(const RobotModel& robot, const Term& term) {
+  if (term.size() > 0.0) return term.size();
+  const std::string& unit = term.unit();
   const double rate = std::sqrt(RobotModel::kGravity / robot.size());
   if (unit == "m") return robot.size();
   if (unit == "m/s") return robot.size() * rate;
+  if (unit == "N") return robot.weight();
+  if (unit == "N m") return robot.weight() * robot.size();
   return unit == "rad/s" ? rate : 1.0;
 }
 
-double term_tolerance(const GoalTolerance& tolerance, const std::string& unit) {
+double term_tolerance(const MotionProblem& problem, const Term& term) {
+  constexpr double kForce = 1e-2;  // of the weight, as for friction: between nodes forces are not linear
   constexpr double kOther = 1e-3;
-  if (unit == "m") return tolerance.position;
-  if (unit == "rad") return tolerance.angle;
-  return unit == "m/s" || unit == "rad/s" ? tolerance.velocity : kOther;
+  const GoalTolerance& tolerance = problem.goal_tolerance;
+  const std::string& unit = term.unit();
+  if (term.size() == 0.0) {
+    if (unit == "m") return tolerance.position;
+    if (unit == "rad") return tolerance.angle;
+    if (unit == "m/s" || unit == "rad/s") return tolerance.velocity;
+    if (unit == "N") return kForce * problem.robot.weight();
+  }
+  return kOther * natural_size(problem.robot, term);
 }
 
 }  // namespace prowl

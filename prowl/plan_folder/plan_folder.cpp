@@ -61,12 +61,12 @@ bool holds_good_plan(const std::filesystem::path& directory) {
   }
 }
 
-PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search) {
+PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search, const OwnTerms& own_terms) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(directory, ignored)) {
     throw InputError(fmt::format("{}: this is a file; need the folder that prowl plan wrote", directory.string()));
   }
-  PlanRecord record = plan_from_json(read_text_file(directory / kPlan, kLongestPlan), search);
+  PlanRecord record = plan_from_json(read_text_file(directory / kPlan, kLongestPlan), search, own_terms);
   const SourceText nodes =
       read_text_file(directory / kNodes, longest_trajectory(record.task.problem, record.plan.mesh));
   record.plan.trajectory.nodes = trajectory_from_csv(record.task.problem, record.plan.mesh, nodes).nodes;

@@ -26,7 +26,8 @@ void write_plan(const std::filesystem::path& directory, const PlanRecord& record
 /// Reads the files of write_plan, except tracker.bin and trajectory_uniform.csv. The task comes from the texts in
 /// plan.json, and so does the URDF if its file is gone. Throws InputError with file and key for anything missing, wrong
 /// or changed since; FileError.
-PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search);
+PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search,
+                     const OwnTerms& own_terms = {});
 
 /// plan.json without the texts of task, robot and URDF, for `prowl plan --json`; with "directory" unless that is empty.
 std::string plan_report_json(const PlanRecord& record, const std::filesystem::path& directory);

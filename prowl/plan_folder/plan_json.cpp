@@ -480,14 +480,14 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
           {"urdf", {{"path", robot.urdf.string()}, {"text", robot.urdf_text}}}};
 }
 
-PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search) {
+PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search, const OwnTerms& own_terms) {
   const Json json = parse_json(source);
   const Reader plan(source.path.string() + ": plan", json);
   const int version = read_version(plan);
 
   const SourceText urdf = read_text(plan.object("urdf"));
   PlanRecord record{.task = parse_task(read_text(plan.object("task_file")), read_text(plan.object("robot_file")),
-                                       search, read_overrides(plan.object("overrides")), urdf),
+                                       search, read_overrides(plan.object("overrides")), urdf, own_terms),
                     .plan = {},
                     .versions = {},
                     .feedback = {},

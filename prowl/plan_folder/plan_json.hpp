@@ -11,6 +11,6 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record);
 nlohmann::ordered_json certificate_to_json(const Certificate& certificate);
 
 /// All but the trajectory. Throws InputError that names the key.
-PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search);
+PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search, const OwnTerms& own_terms = {});
 
 }  // namespace prowl

@@ -9,6 +9,7 @@
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/simulation/simulation_options.hpp"
+#include "prowl/task_file/own_terms.hpp"
 #include "prowl/tracking/tracking_options.hpp"
 
 namespace prowl {
@@ -36,6 +37,7 @@ struct Task {
   SourceText task_file;
   SourceText robot_file;
   TaskOverrides overrides;
+  OwnTerms own_terms = {};          ///< with which the file was read
   std::vector<int> file_intervals;  ///< of each phase, before the overrides
 };
 

@@ -4,6 +4,7 @@
 
 #include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/task_file/toml/toml_vectors.hpp"
+#include "prowl/terms/torque_peaks.hpp"
 
 namespace prowl {
 namespace {
@@ -80,12 +81,28 @@ void read_running_cost(const TomlTable& table, const MotionProblem& problem, Qua
   if (is_static) cost.tau_ref = static_torque(problem);
 }
 
+/// peak_torque: a term over the whole motion.
+void read_peak_torque(const TomlTable& table, MotionProblem& problem) {
+  const auto weight = table.find("peak_torque");
+  if (!weight || weight->as_number() == 0.0) return;
+  TermUse use{.name = "peak_torque",
+              .term = torque_peaks(problem.robot),
+              .from = PhaseFraction::start_of(0),
+              .to = PhaseFraction::end_of(static_cast<int>(problem.phases.size()) - 1)};
+  use.reference.setZero(problem.robot.nu());
+  use.weight = weight->as_number() * Eigen::MatrixXd::Identity(problem.robot.nu(), problem.robot.nu());
+  problem.terms.push_back(std::move(use));
+}
+
 }  // namespace
 
 void read_costs(const TomlTable& root, MotionProblem& problem) {
   problem.running_cost = no_cost(problem);
   problem.terminal_cost = no_cost(problem);
-  if (const auto table = root.find_table("cost")) read_running_cost(*table, problem, problem.running_cost);
+  if (const auto table = root.find_table("cost")) {
+    read_running_cost(*table, problem, problem.running_cost);
+    read_peak_torque(*table, problem);
+  }
   if (const auto table = root.find_table("terminal_cost")) read_state_cost(*table, problem, problem.terminal_cost);
 }
 

@@ -233,7 +233,7 @@ struct FileProblem {
 };
 
 FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
-                         const TaskOverrides& overrides) {
+                         const TaskOverrides& overrides, const OwnTermReader& own_terms) {
   std::vector<Surface> surfaces = read_surfaces(root);
   ContactNames names;
   for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
@@ -268,7 +268,7 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
     const auto& [displacement, rotation] = *gait->travel;
     constraints.push_back(arrival(robot, start, displacement, rotation, static_cast<int>(read.phases.size())));
   }
-  std::vector<TermUse> terms = read_terms(root, robot, read.phases, equal_steps);
+  std::vector<TermUse> terms = read_terms(root, robot, read.phases, equal_steps, own_terms);
   std::vector<PhaseFraction*> moments;
   for (BoundaryConstraint& constraint : constraints) moments.push_back(&constraint.at);
   for (TermUse& use : terms) moments.insert(moments.end(), {&use.from, &use.to});
@@ -339,14 +339,16 @@ RobotModel robot_of(const TomlDocument& document, const SourceText& robot_file, 
 }
 
 Task read_document(const TomlDocument& document, const SourceText& task_file, const SourceText& robot_file,
-                   const PackageSearch& search, const TaskOverrides& overrides, const std::optional<SourceText>& urdf) {
+                   const PackageSearch& search, const TaskOverrides& overrides, const std::optional<SourceText>& urdf,
+                   const OwnTerms& own_terms) {
   const TomlTable root = task_root(document);
   root.need("robot").as_text();
   check_overrides(task_file, overrides);
   const SolverOptions solver = read_solver(root, overrides);
   const TaskSimulation simulation = read_simulation(root);
   auto [problem, mesh, has_intervals, file_intervals] =
-      read_problem(root, with_payloads(root, robot_of(document, robot_file, search, urdf)), robot_file, overrides);
+      read_problem(root, with_payloads(root, robot_of(document, robot_file, search, urdf)), robot_file, overrides,
+                   OwnTermReader(own_terms, task_file.path.parent_path()));
   const auto name = root.find("name");
   problem.name = name ? name->as_name() : name_of_file(task_file.path);
   try {
@@ -370,18 +372,21 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
           .task_file = task_file,
           .robot_file = robot_file,
           .overrides = overrides,
+          .own_terms = own_terms,
           .file_intervals = std::move(file_intervals)};
 }
 
 }  // namespace
 
 Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
-                const TaskOverrides& overrides, const std::optional<SourceText>& urdf) {
+                const TaskOverrides& overrides, const std::optional<SourceText>& urdf, const OwnTerms& own_terms) {
   const TomlDocument document(task_file);
-  return document.read_with([&] { return read_document(document, task_file, robot_file, search, overrides, urdf); });
+  return document.read_with(
+      [&] { return read_document(document, task_file, robot_file, search, overrides, urdf, own_terms); });
 }
 
-Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides) {
+Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides,
+                    const OwnTerms& own_terms) {
   const TomlDocument document(task_file);
   const TomlTable root = task_root(document);
   const std::filesystem::path robot = robot_path(document, task_file, root);
@@ -394,11 +399,12 @@ Task read_task_text(const SourceText& task_file, const PackageSearch& search, co
   } catch (const InputError& error) {
     root.need("robot").fail(error.what());
   }
-  return parse_task(task_file, robot_file, search, overrides);
+  return parse_task(task_file, robot_file, search, overrides, std::nullopt, own_terms);
 }
 
-Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {
-  return read_task_text(read_text_file(path), search, overrides);
+Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides,
+                    const OwnTerms& own_terms) {
+  return read_task_text(read_text_file(path), search, overrides, own_terms);
 }
 
 std::string task_slug(const std::filesystem::path& task_file) {

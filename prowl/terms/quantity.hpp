@@ -17,9 +17,12 @@ struct Quantity {
     center_of_mass_velocity,  ///< [m/s], 3
     joints,                   ///< positions of all joints [rad, m], nu
     joint_rates,              ///< [rad/s, m/s], nu
+    torques,                  ///< of all joints, on the links [N m, N], nu
+    force,                    ///< of the ground on a contact [N], zero while it is open, 3
   };
   Kind kind = Kind::position;
-  std::string frame = {};  ///< of the first four kinds: a link of the URDF, or "base"
+  std::string name =
+      {};  ///< of the first four kinds: a link of the URDF, or "base"; of `force`: a contact of the robot
 };
 
 inline bool is_rate(Quantity::Kind kind) {
@@ -27,11 +30,18 @@ inline bool is_rate(Quantity::Kind kind) {
          kind == Quantity::Kind::center_of_mass_velocity || kind == Quantity::Kind::joint_rates;
 }
 
+inline bool is_load(Quantity::Kind kind) { return kind == Quantity::Kind::torques || kind == Quantity::Kind::force; }
+
 inline bool is_of_joints(Quantity::Kind kind) {
-  return kind == Quantity::Kind::joints || kind == Quantity::Kind::joint_rates;
+  return kind == Quantity::Kind::joints || kind == Quantity::Kind::joint_rates || kind == Quantity::Kind::torques;
 }
 
 inline bool is_of_frame(Quantity::Kind kind) { return kind <= Quantity::Kind::orientation_rate; }
+
+/// Names of the kinds in Python, in their order.
+inline constexpr const char* kQuantityNames[] = {
+    "position",    "orientation", "velocity", "orientation_rate", "center_of_mass", "center_of_mass_velocity", "joints",
+    "joint_rates", "torques",     "force"};
 
 /// Number of its entries.
 inline int size_of(Quantity::Kind kind, const RobotModel& robot) {

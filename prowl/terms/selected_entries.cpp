@@ -28,4 +28,8 @@ std::shared_ptr<const Term> joint_rates(const RobotModel& robot, const std::vect
   return of_joints(Quantity::Kind::joint_rates, robot, joints, "rad/s");
 }
 
+std::shared_ptr<const Term> joint_torques(const RobotModel& robot, const std::vector<int>& joints) {
+  return of_joints(Quantity::Kind::torques, robot, joints, "N m");
+}
+
 }  // namespace prowl

@@ -16,6 +16,8 @@ class SelectedEntries : public Term {
   SelectedEntries(Quantity quantity, std::vector<int> entries, std::vector<std::string> rows, std::string unit)
       : Term({std::move(quantity)}, std::move(rows), std::move(unit)), entries_(std::move(entries)) {}
 
+  const std::vector<int>& entries() const { return entries_; }
+
   void value(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> f) const override {
     for (std::size_t row = 0; row < entries_.size(); ++row) f(static_cast<Eigen::Index>(row)) = y(entries_[row]);
   }
@@ -48,8 +50,15 @@ inline std::shared_ptr<const Term> center_of_mass_velocity() {
   return world_vector({.kind = Quantity::Kind::center_of_mass_velocity}, "m/s");
 }
 
-/// Positions of some joints [rad], or their rates [rad/s]; `joints`: indices, 0 ... nu - 1, none of them sliding.
+/// Force of the ground on a contact [N], world axes; zero while the contact is open.
+inline std::shared_ptr<const Term> contact_force(const std::string& contact) {
+  return world_vector({.kind = Quantity::Kind::force, .name = contact}, "N");
+}
+
+/// Positions of some joints [rad], their rates [rad/s], or the torques on their links [N m]; `joints`: indices,
+/// 0 ... nu - 1, none of them sliding.
 std::shared_ptr<const Term> joint_positions(const RobotModel& robot, const std::vector<int>& joints);
 std::shared_ptr<const Term> joint_rates(const RobotModel& robot, const std::vector<int>& joints);
+std::shared_ptr<const Term> joint_torques(const RobotModel& robot, const std::vector<int>& joints);
 
 }  // namespace prowl

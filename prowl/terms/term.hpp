@@ -21,6 +21,9 @@ class Term {
   const std::vector<Quantity>& reads() const { return reads_; }
   const std::vector<std::string>& rows() const { return rows_; }  ///< names of the entries of f: "x"
   const std::string& unit() const { return unit_; }               ///< of all entries of f: "m", "rad"; "-" if none
+  /// Scale of f in its unit, of which the certificate tolerates a thousandth; 0: both follow from the unit
+  /// (term_use.hpp).
+  double size() const { return size_; }
   int num_rows() const { return static_cast<int>(rows_.size()); }
 
   /// One entry for each row.
@@ -32,8 +35,8 @@ class Term {
                        Eigen::Ref<Eigen::MatrixXd> f_yy) const = 0;
 
  protected:
-  Term(std::vector<Quantity> reads, std::vector<std::string> rows, std::string unit)
-      : reads_(std::move(reads)), rows_(std::move(rows)), unit_(std::move(unit)) {}
+  Term(std::vector<Quantity> reads, std::vector<std::string> rows, std::string unit, double size = 0.0)
+      : reads_(std::move(reads)), rows_(std::move(rows)), unit_(std::move(unit)), size_(size) {}
   Term(const Term&) = default;
   Term& operator=(const Term&) = default;
 
@@ -41,6 +44,7 @@ class Term {
   std::vector<Quantity> reads_;
   std::vector<std::string> rows_;
   std::string unit_;
+  double size_;
 };
 
 /// Number of entries of y.

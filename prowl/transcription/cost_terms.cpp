@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
@@ -86,7 +87,9 @@ CostTerm cost_of(const MotionProblem& problem, const TermUse& use, const Traject
                  RigidBodyTerms& kinematics) {
   const std::vector<TrajectoryPoint>& nodes = motion.nodes;
   CostTerm result{kOwnTerm + use.name, VectorXd::Zero(std::ssize(nodes)), 0.0};
-  TermEvaluation term(problem.robot, use);
+  std::vector<int> contacts(problem.robot.contacts().size());  // all: those without contact have no force
+  std::iota(contacts.begin(), contacts.end(), 0);
+  TermEvaluation term(problem.robot, use, contacts);
   std::vector<bool> holds;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const auto ends = std::ranges::equal_range(nodes, nodes[k].phase, {}, &TrajectoryPoint::phase);
@@ -94,9 +97,9 @@ CostTerm cost_of(const MotionProblem& problem, const TermUse& use, const Traject
     holds.push_back(use.holds_at(nodes[k].phase, (nodes[k].time - start) / duration));
     if (!holds[k]) continue;
     kinematics.update_kinematics(nodes[k].q);
-    term.evaluate(kinematics, nodes[k].q, nodes[k].v);
-    result.rate(static_cast<Eigen::Index>(k)) =
-        half_square(use.weight, term.value() - use.reference, 0, use.weight.size());
+    term.evaluate({kinematics, nodes[k].q, nodes[k].v, nodes[k].tau, nodes[k].force});
+    const VectorXd error = term.value() - use.reference;
+    result.rate(static_cast<Eigen::Index>(k)) = 0.5 * error.dot(use.weight * error);
   }
   if (use.is_moment()) {
     result.cost = result.rate.sum();

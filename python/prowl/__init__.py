@@ -54,11 +54,13 @@ from ._prowl import (
     Sweep,
     SweepCase,
     Task,
+    Term,
     Tracker,
     Tube,
     __version__,
     difference,
     integrate,
+    quantity_names,
     read_plan,
     simulate,
     solver_names,
@@ -69,6 +71,7 @@ from ._runs.diagnose import diagnose
 from ._runs.solve import solve
 from ._runs.sweep import sweep
 from ._show.page import Report, report
+from ._terms import own_term
 
 __all__ = [
     "Certificate",
@@ -101,6 +104,7 @@ __all__ = [
     "Sweep",
     "SweepCase",
     "Task",
+    "Term",
     "Tracker",
     "Tube",
     "__version__",
@@ -109,8 +113,10 @@ __all__ = [
     "export",
     "figures",
     "integrate",
+    "own_term",
     "parse_robot",
     "parse_task",
+    "quantity_names",
     "read_plan",
     "read_robot",
     "read_task",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from . import _prowl
 from ._documents import Document, toml_text
+from ._terms import without_terms
 
 _HERE = Path(__file__).resolve().parent
 # Wheel: beside this file. Installed (share/prowl/python/prowl): above it. Build
@@ -87,12 +88,15 @@ def read_task(
     max_time: float | None = None,
     tolerance: float | None = None,
     robust: bool = False,
+    own_terms: Mapping[str, _prowl.Term] | None = None,
+    allow_libraries: bool = False,
 ) -> _prowl.Task:
     """Reads a task file (docs/task-file.md), or a shipped task by name: read_task("hyq/crouch").
 
     intervals, max_iterations, max_time [s] and tolerance replace those of the file; intervals: of all phases
-    together. robust: as with a table [robust], if the file has none. package_dirs: folders to search for package://, before those of ROS. Raises InputError with
-    file, line and column.
+    together. robust: as with a table [robust], if the file has none. package_dirs: folders to search for package://,
+    before those of ROS. own_terms: by the names that the file uses, from own_term(). allow_libraries: run libraries of
+    terms that the file names. Raises InputError with file, line and column.
     """
     return _prowl.read_task(
         _find(task, shipped_tasks(), "tasks"),
@@ -102,6 +106,8 @@ def read_task(
         max_time=max_time,
         tolerance=tolerance,
         robust=robust,
+        own_terms=dict(own_terms or {}),
+        allow_libraries=allow_libraries,
     )
 
 
@@ -115,15 +121,19 @@ def parse_task(
     max_time: float | None = None,
     tolerance: float | None = None,
     robust: bool = False,
+    own_terms: Mapping[str, _prowl.Term] | None = None,
+    allow_libraries: bool = False,
 ) -> _prowl.Task:
     """A task from the text of a task file, or from a dict with the same keys, like tomllib.loads(task.text).
 
-    A dict may contain a Robot, or the name of a shipped one, as its robot, and NumPy arrays instead of lists.
+    A dict may contain a Robot, or the name of a shipped one, as its robot, terms from own_term() as `own`, and NumPy
+    arrays instead of lists.
     The path of a robot file is relative to `folder`: use task.path.parent for a changed task. The other
     arguments are those of read_task(). Messages name FOLDER/task.toml and lines of the text; for a dict look
     at the key.
     """
     document, robot_file = _robot_of(document, Path(folder))
+    document, own = without_terms(document)
     return _prowl.parse_task(
         toml_text(document),
         Path(folder) / "task.toml",
@@ -134,4 +144,6 @@ def parse_task(
         max_time=max_time,
         tolerance=tolerance,
         robust=robust,
+        own_terms={**(own_terms or {}), **own},
+        allow_libraries=allow_libraries,
     )

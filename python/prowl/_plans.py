@@ -17,11 +17,12 @@ Folders = Sequence[str | os.PathLike[str]]
 _PLAN_FILES = ("plan.json", "trajectory.csv", "tracker.bin")
 
 
-def as_plan(plan: PlanOrFolder, package_dirs: Folders = ()) -> _prowl.Plan:
+def as_plan(plan: PlanOrFolder, package_dirs: Folders = (), allow_libraries: bool = False) -> _prowl.Plan:
     """The plan, read if given as a folder."""
     if isinstance(plan, _prowl.Plan):
         return plan
-    return _prowl.read_plan(os.fspath(plan), [os.fspath(folder) for folder in package_dirs])
+    folders = [os.fspath(folder) for folder in package_dirs]
+    return _prowl.read_plan(os.fspath(plan), folders, allow_libraries=allow_libraries)
 
 
 @contextmanager

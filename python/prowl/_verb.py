@@ -41,6 +41,7 @@ def _figures(options: argparse.Namespace) -> None:
         out=options.out,
         joint=options.joint,
         package_dirs=options.package_dir,
+        allow_libraries=options.allow_libraries,
         on_progress=lambda done, total: _say(progress=[done, total]),
     )
     text = f"{', '.join(drawn.names)}\nwritten to {drawn.folder}, each as .svg, .png and .csv\n"
@@ -58,6 +59,7 @@ def _export(options: argparse.Namespace) -> None:
         rate=options.rate,
         simulation=options.simulation,
         package_dirs=options.package_dir,
+        allow_libraries=options.allow_libraries,
     )
     paths = {os.path.join(done.folder, name): size for name, size in done.files.items()}
     text = "".join(f"{1e-3 * size:>10.1f} kB  {path}\n" for path, size in paths.items())
@@ -82,6 +84,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("directory")
     parser.add_argument("--out")
     parser.add_argument("--package-dir", action="append", default=[])
+    parser.add_argument("--allow-libraries", action="store_true")
     parser.add_argument("--joint")
     parser.add_argument("--format", action="append")
     parser.add_argument("--rate", type=float)

@@ -8,6 +8,7 @@ namespace prowl::python {
 void bind_errors(nanobind::module_& module);
 void bind_files(nanobind::module_& module);
 void bind_robot(nanobind::module_& module);
+void bind_terms(nanobind::module_& module);
 void bind_task(nanobind::module_& module);
 void bind_certificate(nanobind::module_& module);
 void bind_motion(nanobind::module_& module);

@@ -11,6 +11,7 @@ NB_MODULE(_prowl, module) {
   bind_errors(module);
   bind_files(module);
   bind_robot(module);
+  bind_terms(module);
   bind_task(module);
   bind_certificate(module);
   bind_motion(module);

@@ -24,6 +24,7 @@
 #include "prowl/transcription/cost_terms.hpp"
 #include "robot_source.hpp"
 #include "screen/plan_summary.hpp"
+#include "terms.hpp"
 
 namespace prowl::python {
 namespace {
@@ -37,8 +38,12 @@ std::shared_ptr<const Tracker> make_tracker(const PlanRecord& record,
   return tracker;
 }
 
-std::shared_ptr<PlanObject> read(const std::filesystem::path& directory, const std::vector<std::string>& package_dirs) {
-  return std::make_shared<PlanObject>(read_plan(directory, package_search(package_dirs)), directory);
+using TermMap = std::map<std::string, TermObject>;
+
+std::shared_ptr<PlanObject> read(const std::filesystem::path& directory, const std::vector<std::string>& package_dirs,
+                                 const TermMap& own, bool allow_libraries) {
+  return std::make_shared<PlanObject>(
+      read_plan(directory, package_search(package_dirs), own_terms(own, allow_libraries)), directory);
 }
 
 void save_plan(const PlanObject& plan, const std::filesystem::path& directory, std::optional<double> step) {
@@ -258,7 +263,8 @@ void bind_plan(nb::module_& module) {
                            found.trajectory.duration());
       });
   module.def("read_plan", &read, nb::arg("directory"), nb::arg("package_dirs") = std::vector<std::string>{},
-             "Reads a folder written by `prowl plan` or Plan.write.");
+             nb::arg("own_terms") = TermMap{}, nb::arg("allow_libraries") = false,
+             "Reads a folder written by `prowl plan` or Plan.write; own_terms and allow_libraries as for read_task().");
 }
 
 }  // namespace prowl::python

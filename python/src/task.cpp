@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -13,6 +14,7 @@
 #include "prowl/task_file/task_file.hpp"
 #include "robot_source.hpp"
 #include "screen/phase_table.hpp"
+#include "terms.hpp"
 
 namespace prowl::python {
 namespace {
@@ -50,11 +52,13 @@ std::vector<Point> corners(const Surface& surface) {
 }
 
 using Folders = std::vector<std::string>;
+using TermMap = std::map<std::string, TermObject>;
 
 Task read_task(const std::filesystem::path& path, const Folders& package_dirs, std::optional<int> intervals,
                std::optional<int> max_iterations, std::optional<double> max_time, std::optional<double> tolerance,
-               bool robust) {
-  return read_task_file(path, package_search(package_dirs), {intervals, max_iterations, max_time, tolerance, robust});
+               bool robust, const TermMap& own, bool allow_libraries) {
+  return read_task_file(path, package_search(package_dirs), {intervals, max_iterations, max_time, tolerance, robust},
+                        own_terms(own, allow_libraries));
 }
 
 /// A robot file: path and text.
@@ -63,12 +67,13 @@ using RobotFile = std::pair<std::filesystem::path, std::string>;
 Task parse_task_text(const std::string& text, const std::filesystem::path& path,
                      const std::optional<RobotFile>& robot_file, const Folders& package_dirs,
                      std::optional<int> intervals, std::optional<int> max_iterations, std::optional<double> max_time,
-                     std::optional<double> tolerance, bool robust) {
+                     std::optional<double> tolerance, bool robust, const TermMap& own, bool allow_libraries) {
   const SourceText task_file{std::filesystem::absolute(path), text};
   const TaskOverrides overrides{intervals, max_iterations, max_time, tolerance, robust};
   const PackageSearch search = package_search(package_dirs);
-  if (!robot_file) return read_task_text(task_file, search, overrides);
-  return parse_task(task_file, {robot_file->first, robot_file->second}, search, overrides);
+  const OwnTerms terms = own_terms(own, allow_libraries);
+  if (!robot_file) return read_task_text(task_file, search, overrides, terms);
+  return parse_task(task_file, {robot_file->first, robot_file->second}, search, overrides, std::nullopt, terms);
 }
 
 }  // namespace
@@ -116,6 +121,17 @@ void bind_task(nb::module_& module) {
       .def_prop_ro(
           "robot_text", [](const Task& task) { return task.robot_file.text; }, "Text of the robot file.")
       .def_prop_ro(
+          "own_terms",
+          [](const Task& task) {
+            TermMap terms;
+            for (const auto& [name, term] : task.own_terms.known) terms[name] = {term};
+            return terms;
+          },
+          "Terms of the caller's own that it was read with, by name.")
+      .def_prop_ro(
+          "allow_libraries", [](const Task& task) { return task.own_terms.allows_libraries; },
+          "Whether libraries of terms that it names may run.")
+      .def_prop_ro(
           "start",
           [](nb::handle self) { return view(nb::cast<const Task&>(self).problem.start_configuration(), self); },
           "Configuration at the start, q (nq).")
@@ -135,11 +151,13 @@ void bind_task(nb::module_& module) {
   module.def("read_task", &read_task, nb::arg("path"), nb::kw_only(), nb::arg("package_dirs") = Folders{},
              nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
              nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(), nb::arg("robust") = false,
+             nb::arg("own_terms") = TermMap{}, nb::arg("allow_libraries") = false,
              "Reads a task file, docs/task-file.md.");
   module.def("parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
              nb::arg("robot_file").none() = nb::none(), nb::arg("package_dirs") = Folders{},
              nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
              nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(), nb::arg("robust") = false,
+             nb::arg("own_terms") = TermMap{}, nb::arg("allow_libraries") = false,
              "Reads the text of a task file; paths in it are relative to the folder of `path`, which need not exist.\n"
              "robot_file: path and text that replace the robot file of the task.");
 }

@@ -20,8 +20,6 @@ PICTURES = {
     "phases": concepts.phases,
     "mesh": concepts.mesh,
     "margins": concepts.margins,
-    "slope": how_to.slope,
-    "wall": how_to.wall,
     "gains": how_to.gains,
     "orders": formulations.orders,
 }

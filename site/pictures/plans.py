@@ -4,13 +4,10 @@ import csv
 import json
 import pathlib
 import subprocess
-import sys
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "site"))
-from page_blocks import blocks  # noqa: E402
 
 
 class Table:
@@ -45,13 +42,6 @@ class Planner:
 
     def plan(self, task: str, *options: str, good: bool = True) -> Plan:
         return self._plan(ROOT / "tasks" / f"{task}.toml", options, good)
-
-    def plan_shown(self, page: str, title: str, *options: str) -> Plan:
-        """The task that a page of docs/ shows under this title."""
-        (block,) = (block for block in blocks(ROOT / "docs" / page) if block.title == title)
-        path = self._work / pathlib.Path(title).name
-        path.write_text(block.text.replace('"../robots/', f'"{ROOT}/robots/'), encoding="utf-8")
-        return self._plan(path, options, good=True)
 
     def output_of(self, program: str) -> str:
         """Of a program of the build that prowl is in."""

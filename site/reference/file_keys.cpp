@@ -1,5 +1,5 @@
 // Prints the keys of task and robot files as JSON, for write.py: {"task": [{"table", "name", "type", "unit", "default",
-// "meaning"}], "robot": [...]}.
+// "meaning", "formula"}], "robot": [...]}.
 #include "prowl/task_file/toml/file_keys.hpp"
 
 #include <iostream>
@@ -15,7 +15,8 @@ nlohmann::ordered_json json_of(const prowl::FileKeys& keys) {
                     {"type", key.type()},
                     {"unit", key.unit},
                     {"default", key.fallback},
-                    {"meaning", key.meaning}});
+                    {"meaning", key.meaning},
+                    {"formula", key.formula}});
   return list;
 }
 

@@ -37,13 +37,11 @@ def table(columns: list[str], rows: list[list[str]]) -> str:
 def key_tables(keys: list[dict]) -> str:
     text = ""
     for name in dict.fromkeys(key["table"] for key in keys):
-        rows = [
-            [f"`{key['name']}`", *(cell(key[column]) for column in ("type", "unit", "default", "meaning"))]
-            for key in keys
-            if key["table"] == name
-        ]
+        of_table = [key for key in keys if key["table"] == name]
+        columns = ["type", "unit", "default", "meaning"] + ["formula"] * any(key["formula"] for key in of_table)
+        rows = [[f"`{key['name']}`", *(cell(key[column]) for column in columns)] for key in of_table]
         heading = f"`{name}`" if name else "Top level"
-        text += f"\n### {heading}\n\n" + table(["key", "type and range", "unit", "default", "meaning"], rows)
+        text += f"\n### {heading}\n\n" + table(["key", "type and range", *columns[1:]], rows)
     return text
 
 

@@ -38,7 +38,11 @@ class Reference(unittest.TestCase):
                     rows = section(tables + "\n### ", f"### `{key['table']}`" if key["table"] else "### Top level")
                     row = re.search(rf"^\| `{key['name']}` \|.*$", rows, re.MULTILINE)
                     self.assertTrue(row, "no row")
-                    for part in ("type", "unit", "default", "meaning"):
+                    for part in (
+                        ("type", "unit", "default", "meaning", "formula")
+                        if key["formula"]
+                        else ("type", "unit", "default", "meaning")
+                    ):
                         self.assertIn(f"| {write.cell(key[part])} |", row[0])
 
     def test_has_every_option_of_every_verb(self):

@@ -1,5 +1,6 @@
 #include "prowl/motion/check_terms.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,10 +71,79 @@ TEST(CheckTerms, NamesTheFieldThatIsWrong) {
                 },
                 true),
             "terms[0]: at the start: term 'hand': its value is not finite; need another start or reference");
-  EXPECT_EQ(with([](TermUse& use) { use.weight(0) = -1.0; }, true),
-            "terms[0].weight: -1 is not allowed; need a finite number >= 0");
+  EXPECT_EQ(with([](TermUse& use) { use.weight = Eigen::Vector3d(1.0, -2.0, 1.0).asDiagonal(); }, true),
+            "terms[0].weight: is not positive semidefinite: an eigenvalue is -2; need none below zero");
+  EXPECT_EQ(with([](TermUse& use) { use.weight(2, 0) = 0.5; }, true),
+            "terms[0].weight: is not symmetric: entry 2, 0 is 0.5, entry 0, 2 is 0.3");
+  EXPECT_EQ(with([](TermUse& use) { use.weight.setIdentity(2, 2); }, true),
+            "terms[0].weight: 2 x 2 entries are not allowed; need 3 x 3");
+  EXPECT_EQ(with([](TermUse& use) { use.weight(1, 1) = std::nan(""); }, true),
+            "terms[0].weight: an entry that is not finite is not allowed");
   EXPECT_EQ(with([](TermUse& use) { use.reference(0) = std::nan(""); }, true),
             "terms[0].reference: nan is not allowed; need a finite number");
+}
+
+/// A user's function with an entry of its derivatives that is wrong by a factor.
+std::shared_ptr<const Term> distance(double slope, double curvature) {
+  class Distance : public Term {
+   public:
+    Distance(double slope, double curvature)
+        : Term({{.kind = Quantity::Kind::position, .name = "lf_foot"}}, {"distance"}, "m"),
+          slope_(slope),
+          curvature_(curvature) {}
+    void value(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> f) const override { f(0) = y.squaredNorm(); }
+    void jacobian(const Eigen::VectorXd& y, Eigen::Ref<Eigen::MatrixXd> f_y) const override {
+      f_y.row(0) = 2.0 * y.transpose();
+      f_y(0, 2) *= slope_;
+    }
+    void hessian(const Eigen::VectorXd& /*y*/, const Eigen::VectorXd& multipliers,
+                 Eigen::Ref<Eigen::MatrixXd> f_yy) const override {
+      f_yy.diagonal().setConstant(2.0 * multipliers(0));
+      f_yy(1, 1) *= curvature_;
+    }
+
+   private:
+    double slope_, curvature_;
+  };
+  return std::make_shared<Distance>(slope, curvature);
+}
+
+TEST(CheckTerms, NamesTheWrongDerivative) {
+  const auto said = [](double slope, double curvature) {
+    return complaint(whole(test::limit_on("mine", distance(slope, curvature), -9.0, 9.0)));
+  };
+  EXPECT_EQ(said(1.0, 1.0), "");
+  EXPECT_THAT(said(1.001, 1.0),
+              testing::StartsWith(
+                  "terms[0].term: the derivative of 'distance' with respect to the position of 'lf_foot', z is "));
+  EXPECT_THAT(said(1.0, 0.5),
+              testing::AllOf(testing::HasSubstr("with respect to the position of 'lf_foot', y and the position"),
+                             testing::EndsWith(" is 2; finite differences give 4")));
+}
+
+TEST(CheckTerms, NamesTheNearestContact) {
+  EXPECT_THAT(complaint(whole(test::limit_on("push", contact_force("lf_fot"), -9.0, 9.0))),
+              testing::AllOf(testing::StartsWith("terms[0].contact: "), testing::HasSubstr("'lf_foot'")));
+}
+
+TEST(CheckTerms, NamesTwoThatContradictEachOther) {
+  const auto said = [](double high, PhaseFraction from, PhaseFraction to) {
+    MotionProblem problem = test::standing_problem(test::hyq());
+    problem.terms = {test::over(test::limit_on("low", frame_position("trunk"), -9.0, 0.7), {0, 0.3}, {0, 0.6}),
+                     test::over(test::limit_on("high", frame_position("trunk"), high, 9.0), from, to)};
+    try {
+      check_terms(problem);
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(said(0.75, {0, 0.5}, {0, 0.9}),
+            "terms: terms 'low' and 'high' contradict each other: x must be 0.75 m or more, and 0.7 m or less at one "
+            "time");
+  EXPECT_EQ(said(0.7, {0, 0.5}, {0, 0.9}), "");
+  EXPECT_EQ(said(0.75, {0, 0.7}, {0, 0.9}), "");
+  EXPECT_NE(said(0.75, {0, 0.6}, {0, 0.6}), "");
 }
 
 TEST(CheckTerms, RefusesTwoOfOneName) {
@@ -91,7 +161,7 @@ TEST(CheckTerms, RefusesWhatDiffersFromCycleToCycle) {
     TermUse use =
         test::over(test::cost_on("mine", term, 1.0, 0.0), PhaseFraction::start_of(0), PhaseFraction::end_of(1));
     use.weight.setZero();
-    use.weight(row) = 1.0;
+    use.weight(row, row) = 1.0;
     problem.terms = {use};
     try {
       check_terms(problem);

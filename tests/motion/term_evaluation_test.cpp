@@ -16,6 +16,7 @@
 namespace prowl {
 namespace {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -29,23 +30,49 @@ std::vector<Links> robots() {
   return {{test::hyq(), "lf_foot", "rh_upperleg"}, {test::talos(), "gripper_left_base_link", "torso_2_link"}};
 }
 
+/// All variables of a node, with forces that follow from them.
+struct State {
+  VectorXd q, v, a, tau;
+
+  VectorXd forces() const { return force_map * (VectorXd(3 * v.size() + tau.size()) << kept, v, a, tau).finished(); }
+  /// Displaced in one variable: in the tangent of q | v | a | tau.
+  State moved(const VectorXd& by) const {
+    const Index nv = v.size();
+    State result = *this;
+    result.q = integrate(q, by.head(nv));
+    result.v += by.segment(nv, nv);
+    result.a += by.segment(2 * nv, nv);
+    result.tau += by.tail(tau.size());
+    result.kept += by.head(nv);
+    return result;
+  }
+  Index size() const { return 3 * v.size() + tau.size(); }
+
+  MatrixXd force_map;  ///< of the contacts whose forces are known
+  VectorXd kept;       ///< how far q was displaced
+};
+
 /// Evaluates one term at any state.
 class Reader {
  public:
-  Reader(const RobotModel& robot, const TermUse& use) : kinematics_(robot), term_(robot, use) {}
+  Reader(const RobotModel& robot, const TermUse& use, const std::vector<int>& contacts = {})
+      : kinematics_(robot), term_(robot, use, contacts) {}
 
-  TermEvaluation& at(const VectorXd& q, const VectorXd& v) {
+  TermEvaluation& at(const VectorXd& q, const VectorXd& v, const VectorXd& tau = {}, const VectorXd& forces = {}) {
     kinematics_.update_kinematics(q);
-    term_.evaluate(kinematics_, q, v);
+    term_.evaluate({kinematics_, q, v, tau, forces});
     return term_;
   }
+  TermEvaluation& at(const State& state) { return at(state.q, state.v, state.tau, state.forces()); }
   VectorXd value(const VectorXd& q, const VectorXd& v) { return at(q, v).value(); }
-  /// (dq | dv)
-  MatrixXd slopes(const VectorXd& q, const VectorXd& v) {
-    at(q, v).differentiate();
-    MatrixXd both(term_.dq().rows(), 2 * v.size());
-    both << term_.dq(), term_.dv();
-    return both;
+  VectorXd value(const State& state) { return at(state).value(); }
+  /// In all variables.
+  MatrixXd slopes(const State& state) {
+    TermEvaluation& term = at(state);
+    term.differentiate(state.force_map);
+    MatrixXd all = MatrixXd::Zero(term.dx().rows(), state.size());
+    all.middleCols(term.first_variable(), term.dx().cols()) = term.dx();
+    return all;
   }
 
  private:
@@ -53,54 +80,68 @@ class Reader {
   TermEvaluation term_;
 };
 
+/// Forces are linear in the variables here: their own second derivatives are those of the dynamics, tested there.
 TEST(TermEvaluation, DerivativesAreThoseOfDifferences) {
   std::mt19937 rng(7);
   for (const Links& links : robots()) {
-    const Eigen::Index nv = links.robot.nv();
-    const DynamicsPoint at = test::random_point(links.robot, {}, rng);
-    for (const TermUse& use : test::every_term(links.robot, links.tip, links.middle, 1)) {
-      Reader reader(links.robot, use);
+    const RobotModel& robot = links.robot;
+    const Index nv = robot.nv(), all = 3 * nv + robot.nu();
+    const std::vector<int> contacts = {2, 0};
+    const DynamicsPoint point = test::random_point(robot, contacts, rng);
+    const State state{point.q, point.v, point.a, point.tau, test::random_matrix(rng, 6, all, 1.0), VectorXd::Zero(nv)};
+    for (const TermUse& use : test::every_term(robot, links.tip, links.middle, 1)) {
+      Reader reader(robot, use, contacts);
       const double h = 1e-5;
-      const auto moved = [&](Eigen::Index i, double by) -> std::pair<VectorXd, VectorXd> {
-        if (i < nv) return {integrate(at.q, by * VectorXd::Unit(nv, i)), at.v};
-        return {at.q, at.v + by * VectorXd::Unit(nv, i - nv)};
-      };
-      MatrixXd expected(use.term->num_rows(), 2 * nv);
-      for (Eigen::Index i = 0; i < 2 * nv; ++i) {
-        const auto [q_above, v_above] = moved(i, h);
-        const auto [q_below, v_below] = moved(i, -h);
-        expected.col(i) = (reader.value(q_above, v_above) - reader.value(q_below, v_below)) / (2.0 * h);
+      MatrixXd expected(use.term->num_rows(), all);
+      for (Index i = 0; i < all; ++i) {
+        const VectorXd step = h * VectorXd::Unit(all, i);
+        expected.col(i) = (reader.value(state.moved(step)) - reader.value(state.moved(-step))) / (2.0 * h);
       }
-      const MatrixXd slopes = reader.slopes(at.q, at.v);
-      EXPECT_LT(test::relative_error(slopes, expected, 1.0), 1e-7) << use.name;
+      EXPECT_LT(test::relative_error(reader.slopes(state), expected, 1.0), 1e-6) << use.name;
 
       // Second derivatives along q (+) d: the tangent at a moved q is not that at q, so they are second differences.
       const VectorXd multipliers = test::random_vector(rng, use.term->num_rows(), 1.0);
-      MatrixXd qq = MatrixXd::Zero(nv, nv), vq = qq, vv = qq, second(nv, nv);
-      reader.slopes(at.q, at.v);
-      reader.at(at.q, at.v).differentiate();
-      TermEvaluation& term = reader.at(at.q, at.v);
-      term.differentiate();
-      term.add_hessian(multipliers, qq, vq, vv);
+      MatrixXd hessian = MatrixXd::Zero(all, all), second(all, all);
+      reader.slopes(state);
+      TermEvaluation& term = reader.at(state);
+      term.differentiate(state.force_map);
+      term.add_hessian(multipliers, hessian);
       const double step = 1e-3;
-      const auto along = [&](const VectorXd& d) { return multipliers.dot(reader.value(integrate(at.q, d), at.v)); };
-      for (Eigen::Index i = 0; i < nv; ++i) {
-        for (Eigen::Index j = 0; j < nv; ++j) {
-          const VectorXd s = step * (VectorXd::Unit(nv, i) + VectorXd::Unit(nv, j)),
-                         d = step * (VectorXd::Unit(nv, i) - VectorXd::Unit(nv, j));
+      const auto along = [&](const VectorXd& d) { return multipliers.dot(reader.value(state.moved(d))); };
+      for (Index i = 0; i < all; ++i) {
+        for (Index j = 0; j < all; ++j) {
+          const VectorXd s = step * (VectorXd::Unit(all, i) + VectorXd::Unit(all, j)),
+                         d = step * (VectorXd::Unit(all, i) - VectorXd::Unit(all, j));
           second(i, j) = (along(s) - along(d) - along(-d) + along(-s)) / (4.0 * step * step);
         }
       }
-      EXPECT_LT(test::relative_error(qq, second, 1.0), 1e-4) << use.name;
-      MatrixXd by_v(2 * nv, nv);
-      for (Eigen::Index i = 0; i < nv; ++i) {
-        const VectorXd d = h * VectorXd::Unit(nv, i);
-        by_v.col(i) =
-            (reader.slopes(at.q, at.v + d) - reader.slopes(at.q, at.v - d)).transpose() * multipliers / (2.0 * h);
-      }
-      EXPECT_LT(test::relative_error(vq.transpose(), by_v.topRows(nv), 1.0), 1e-7) << use.name;
-      EXPECT_LT(test::relative_error(vv, by_v.bottomRows(nv), 1.0), 1e-7) << use.name;
+      EXPECT_LT(test::relative_error(hessian, second, 1.0), 1e-4) << use.name;
     }
+  }
+}
+
+/// What the second derivatives of the forces are multiplied with.
+TEST(TermEvaluation, PullOnForcesIsTheDerivativeInThem) {
+  std::mt19937 rng(10);
+  const RobotModel robot = test::hyq();
+  const std::vector<int> contacts = {2, 0};
+  const DynamicsPoint at = test::random_point(robot, contacts, rng);
+  const VectorXd forces = test::random_vector(rng, 6, 100.0);
+  for (const TermUse& use : test::every_term(robot, "lf_foot", "rh_upperleg", 1)) {
+    Reader reader(robot, use, contacts);
+    const VectorXd multipliers = test::random_vector(rng, use.term->num_rows(), 1.0);
+    VectorXd pull = VectorXd::Zero(6), expected(6);
+    TermEvaluation& term = reader.at(at.q, at.v, at.tau, forces);
+    term.differentiate(MatrixXd::Zero(6, 3 * robot.nv() + robot.nu()));
+    term.add_force_pull(multipliers, pull);
+    for (Index i = 0; i < 6; ++i) {
+      const VectorXd step = 1e-3 * VectorXd::Unit(6, i);
+      const auto with = [&](const VectorXd& moved) {
+        return multipliers.dot(reader.at(at.q, at.v, at.tau, moved).value());
+      };
+      expected(i) = (with(forces + step) - with(forces - step)) / 2e-3;
+    }
+    EXPECT_LT((pull - expected).norm(), 1e-7 * (1.0 + expected.norm())) << use.name;
   }
 }
 
@@ -154,7 +195,7 @@ TEST(TermEvaluation, RatesAreThoseOfThePositions) {
 /// A term of a user that divides by zero.
 class Broken : public Term {
  public:
-  Broken() : Term({{Quantity::Kind::center_of_mass, ""}}, {"x"}, "-") {}
+  Broken() : Term({{.kind = Quantity::Kind::center_of_mass}}, {"x"}, "-") {}
   void value(const VectorXd& /*y*/, Eigen::Ref<VectorXd> f) const override { f(0) = std::nan(""); }
   void jacobian(const VectorXd& /*y*/, Eigen::Ref<MatrixXd> f_y) const override { f_y.setZero(); }
   void hessian(const VectorXd& /*y*/, const VectorXd& /*multipliers*/, Eigen::Ref<MatrixXd> f_yy) const override {

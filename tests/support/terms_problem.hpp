@@ -10,6 +10,7 @@
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/terms/frame_terms.hpp"
 #include "prowl/terms/selected_entries.hpp"
+#include "prowl/terms/torque_peaks.hpp"
 
 /// Every kind of term, as a limit and as a cost, for tests of derivatives.
 namespace prowl::test {
@@ -26,8 +27,41 @@ inline TermUse cost_on(std::string name, std::shared_ptr<const Term> term, doubl
   const int rows = term->num_rows();
   return {.name = std::move(name),
           .term = std::move(term),
-          .weight = weight * Eigen::VectorXd::LinSpaced(rows, 1.0, 2.0),
-          .reference = Eigen::VectorXd::Constant(rows, reference)};
+          .reference = Eigen::VectorXd::Constant(rows, reference),
+          .weight = weight * (Eigen::MatrixXd::Constant(rows, rows, 0.3) +
+                              Eigen::MatrixXd(Eigen::VectorXd::LinSpaced(rows, 1.0, 2.0).asDiagonal()))};
+}
+
+/// A user's: torque times rate of the first joint, and the height that its contact's force holds.
+inline std::shared_ptr<const Term> power_of_first_joint(const RobotModel& robot) {
+  class Power : public Term {
+   public:
+    explicit Power(const RobotModel& robot)
+        : Term({{.kind = Quantity::Kind::torques},
+                {.kind = Quantity::Kind::joint_rates},
+                {.kind = Quantity::Kind::force, .name = robot.contacts()[0].name},
+                {.kind = Quantity::Kind::position, .name = kBaseFrame}},
+               {"power"}, "W"),
+          nu_(robot.nu()) {}
+    void value(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> f) const override {
+      f(0) = y(0) * y(nu_) + 0.01 * y(2 * nu_ + 2) * y(2 * nu_ + 5);
+    }
+    void jacobian(const Eigen::VectorXd& y, Eigen::Ref<Eigen::MatrixXd> f_y) const override {
+      f_y(0, 0) = y(nu_);
+      f_y(0, nu_) = y(0);
+      f_y(0, 2 * nu_ + 2) = 0.01 * y(2 * nu_ + 5);
+      f_y(0, 2 * nu_ + 5) = 0.01 * y(2 * nu_ + 2);
+    }
+    void hessian(const Eigen::VectorXd& /*y*/, const Eigen::VectorXd& multipliers,
+                 Eigen::Ref<Eigen::MatrixXd> f_yy) const override {
+      f_yy(0, nu_) = f_yy(nu_, 0) = multipliers(0);
+      f_yy(2 * nu_ + 2, 2 * nu_ + 5) = f_yy(2 * nu_ + 5, 2 * nu_ + 2) = 0.01 * multipliers(0);
+    }
+
+   private:
+    Eigen::Index nu_;
+  };
+  return std::make_shared<Power>(robot);
 }
 
 inline TermUse over(TermUse use, PhaseFraction from, PhaseFraction to) {
@@ -53,6 +87,8 @@ inline std::vector<TermUse> every_term(const RobotModel& robot, const std::strin
            later, end),
       over(limit_on("centre", center_of_mass(), 0.1, 0.1), later, end),
       over(limit_on("joints", joint_positions(robot, {0, 2}), -1.0, 1.0), later, end),
+      over(limit_on("torques", joint_torques(robot, {1, 3}), -20.0, 20.0), start, end),
+      over(limit_on("force", contact_force(robot.contacts()[2].name), -900.0, 900.0), later, end),
       over(cost_on("tip cost", frame_position(tip, middle), 3.0, 0.1), start, end),
       over(cost_on("orientation cost", frame_orientation(middle, turned, tip), 2.0, 0.1), start, end_of_first),
       over(cost_on("velocity cost", frame_velocity(middle), 0.7, 0.2), later, end),
@@ -60,6 +96,10 @@ inline std::vector<TermUse> every_term(const RobotModel& robot, const std::strin
       over(cost_on("looks there", frame_pointing_at(middle, {0.0, 0.0, 1.0}, {2.0, 1.0, 3.0}), 1.5, 0.0), start, end),
       over(cost_on("centre's velocity", center_of_mass_velocity(), 0.9, 0.1), start, end),
       over(cost_on("rates", joint_rates(robot, {1}), 0.3, 0.0), later, later),
+      over(cost_on("torque peaks", torque_peaks(robot), 5.0, 0.0), start, end),
+      over(cost_on("force cost", contact_force(robot.contacts()[0].name), 1e-4, 100.0), start, end),
+      over(cost_on("last force", contact_force(robot.contacts()[2].name), 1e-4, 50.0), end_of_first, end_of_first),
+      over(cost_on("power", power_of_first_joint(robot), 1e-3, 1.0), start, end),
   };
 }
 

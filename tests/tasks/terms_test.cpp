@@ -107,6 +107,47 @@ TEST(Terms, ACostPullsInProportionToItsWeight) {
   EXPECT_GT(last, 0.01);
 }
 
+/// Forces jump where a contact opens: both nodes of the phase transition keep their limits.
+TEST(Terms, AForceIsKeptFromTheStartOfItsPhase) {
+  const Task task = with_terms("hyq/step", R"(
+[[term]]
+name = "light"
+contact = "lh_foot"
+force_N = ["free", "free", ["free", 250]]
+phase = "swing"
+)");
+  const Plan plan = planned(task), free = planned(with_terms("hyq/step", ""));
+  ASSERT_TRUE(is_good(plan)) << plan.result.message;
+  const auto largest = [&](const Trajectory& motion) {
+    double force = 0.0;
+    for (const TrajectoryPoint& node : motion.nodes) {
+      if (node.phase == 1) force = std::max(force, node.force(3 * 1 + 2));
+    }
+    return force;
+  };
+  ASSERT_EQ(task.problem.robot.contact_index("lh_foot"), 1);
+  EXPECT_LT(largest(plan.trajectory), 250.0 + 1e-2);
+  EXPECT_GT(largest(free.trajectory), 260.0) << "the foot would not carry more anyway, so the test checks nothing";
+}
+
+TEST(Terms, APeakShrinksWithItsWeight) {
+  const auto peak = [](const Plan& plan, const RobotModel& robot) {
+    double most = 0.0;
+    for (const TrajectoryPoint& node : plan.trajectory.nodes) {
+      most = std::max(most, node.tau.cwiseQuotient(robot.torque_limit()).cwiseAbs().maxCoeff());
+    }
+    return most;
+  };
+  std::string text = test::read_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml");
+  text = test::replaced(text, "../..", PROWL_SOURCE_DIR);
+  const test::TempFolder folder;
+  const Task few = read_task_file(folder.write("few.toml", test::replaced(text, "[cost]", "[cost]\npeak_torque = 100")),
+                                  test::test_search());
+  const Plan plan = planned(few), usual = planned(with_terms("hyq/step", ""));
+  ASSERT_TRUE(is_good(plan)) << plan.result.message;
+  EXPECT_LT(peak(plan, few.problem.robot), 0.9 * peak(usual, few.problem.robot));
+}
+
 TEST(Terms, AllSolversFindTheSame) {
   const Task task = with_terms("hyq/crouch", R"(
 [[term]]

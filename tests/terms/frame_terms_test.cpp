@@ -8,6 +8,7 @@
 #include "prowl/error.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/terms/selected_entries.hpp"
+#include "prowl/terms/torque_peaks.hpp"
 #include "tests/support/random_vector.hpp"
 #include "tests/support/robots.hpp"
 
@@ -50,7 +51,10 @@ std::vector<std::shared_ptr<const Term>> all_terms(const RobotModel& robot, cons
           center_of_mass(),
           center_of_mass_velocity(),
           joint_positions(robot, {3, 1}),
-          joint_rates(robot, {0})};
+          joint_rates(robot, {0}),
+          joint_torques(robot, {2, 0}),
+          contact_force("rf_foot"),
+          torque_peaks(robot)};
 }
 
 TEST(FrameTerms, DerivativesAreThoseOfDifferences) {
@@ -66,18 +70,19 @@ TEST(FrameTerms, DerivativesAreThoseOfDifferences) {
         return f;
       };
       const auto jacobian = [&](const VectorXd& at) {
-        MatrixXd f_y(term->num_rows(), y.size());
+        MatrixXd f_y = MatrixXd::Zero(term->num_rows(), y.size());
         term->jacobian(at, f_y);
         return f_y;
       };
-      MatrixXd by_differences(term->num_rows(), y.size()), second(y.size(), y.size()), hessian(y.size(), y.size());
+      MatrixXd by_differences(term->num_rows(), y.size()), second(y.size(), y.size()),
+          hessian = MatrixXd::Zero(y.size(), y.size());
       for (Eigen::Index i = 0; i < y.size(); ++i) {
         const VectorXd step = 1e-6 * VectorXd::Unit(y.size(), i);
         by_differences.col(i) = (value(y + step) - value(y - step)) / 2e-6;
         second.col(i) = (jacobian(y + step) - jacobian(y - step)).transpose() * multipliers / 2e-6;
       }
       term->hessian(y, multipliers, hessian);
-      EXPECT_LT(test::relative_error(jacobian(y), by_differences, 1.0), 1e-7) << term->reads()[0].frame;
+      EXPECT_LT(test::relative_error(jacobian(y), by_differences, 1.0), 1e-7) << term->reads()[0].name;
       EXPECT_LT(test::relative_error(hessian, second, 1.0), 1e-7) << term->num_rows() << " rows in " << term->unit();
     }
   }

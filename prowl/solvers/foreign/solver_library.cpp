@@ -8,7 +8,7 @@ namespace prowl {
 
 std::unique_ptr<NlpSolver> load_solver(const std::string& library, const std::string& name) {
   void* const function = load_function(
-      "prowl_" + library, "prowl_make_solver",
+      "libprowl_" + library + ".so", "prowl_make_solver",
       fmt::format("solver: \"{}\" is not installed: pip install \"prowl[solvers]\", in a clone scripts/setup", name));
   return std::unique_ptr<NlpSolver>(reinterpret_cast<NlpSolver* (*)(const char*)>(function)(name.c_str()));
 }

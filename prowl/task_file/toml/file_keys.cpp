@@ -34,6 +34,8 @@ const char* const kOneOrThree = "number or 3 numbers";
 const char* const kOneOrJoints = "number or {joint = number}";
 const char* const kOneOrRange = "number or [min, max]";
 const char* const kBounds3 = "3 x (number, \"free\" or [min, max])";
+const char* const kOneSidedBounds3 = "3 x (number, \"free\" or [min, max]; min or max may be \"free\")";
+const char* const kOneSidedJointBounds = "{joint = number or [min, max]; min or max may be \"free\"}";
 const char* const kJointBounds = "{joint = number or [min, max]}";
 
 std::string number_text(double number) { return fmt::format("{:g}", number); }
@@ -80,7 +82,9 @@ void add_top(FileKeys& keys) {
            .form = "[cost]",
            .meaning = "running cost: half the sum of weight x difference², integrated over time"});
   top.add({.name = "terminal_cost", .form = "[terminal_cost]", .meaning = "the same at the last node, not integrated"});
-  top.add({.name = "term", .form = "[[term]]", .meaning = "limits and costs of frames, centre of mass and joints"});
+  top.add({.name = "term",
+           .form = "[[term]]",
+           .meaning = "limits and costs of frames, centre of mass, joints, forces, and of one's own"});
   top.add({.name = "friction_model",
            .choices = {"cone", "pyramid"},
            .fallback = "\"cone\"",
@@ -364,29 +368,38 @@ void add_term(FileKeys& keys) {
             .form = "string",
             .fallback = "the world",
             .meaning = "another frame, in whose axes position_m and orientation_rpy_rad are"});
-  term.add({.name = "position_m", .form = kBounds3, .unit = "m", .meaning = "position of the frame's origin"});
+  term.add({.name = "position_m",
+            .form = kOneSidedBounds3,
+            .unit = "m",
+            .meaning = "position of the frame's origin",
+            .formula = "R_oᵀ (p - p_o), o: relative_to"});
   term.add({.name = "orientation_rpy_rad",
             .form = "3 numbers",
             .range = kAngle,
             .unit = "rad",
             .meaning =
                 "orientation of the frame, R = Rz(yaw) Ry(pitch) Rx(roll); for a frame that is level and free to "
-                "turn, axis and points_along"});
+                "turn, axis and points_along",
+            .formula = "log(R_refᵀ R_oᵀ R)"});
   term.add({.name = "velocity_mps",
-            .form = kBounds3,
+            .form = kOneSidedBounds3,
             .unit = "m/s",
-            .meaning = "velocity of the frame's origin, world axes"});
+            .meaning = "velocity of the frame's origin, world axes",
+            .formula = "dp/dt"});
   term.add({.name = "angular_velocity_radps",
-            .form = kBounds3,
+            .form = kOneSidedBounds3,
             .unit = "rad/s",
-            .meaning = "angular velocity of the frame, world axes"});
+            .meaning = "angular velocity of the frame, world axes",
+            .formula = "ω"});
   term.add({.name = "points_along",
             .form = "3 numbers",
-            .meaning = "direction in the world, of any length but zero, of the frame's axis"});
+            .meaning = "direction in the world, of any length but zero, of the frame's axis",
+            .formula = "rotation vector from R axis to the direction, along two unit vectors across the axis"});
   term.add({.name = "points_at_m",
             .form = "3 numbers",
             .unit = "m",
-            .meaning = "point of the world at which the frame's axis points"});
+            .meaning = "point of the world at which the frame's axis points",
+            .formula = "as of points_along, with the direction point - p"});
   term.add({.name = "axis", .form = "3 numbers", .meaning = "axis of the frame for points_along and points_at_m"});
   term.add({.name = "within_rad",
             .form = "number",
@@ -396,10 +409,46 @@ void add_term(FileKeys& keys) {
             .meaning =
                 "largest angle from orientation_rpy_rad about each of its axes, or from the direction about each "
                 "of two axes across it"});
-  term.add({.name = "com_m", .form = kBounds3, .unit = "m", .meaning = "centre of mass of the robot, world frame"});
-  term.add({.name = "com_velocity_mps", .form = kBounds3, .unit = "m/s", .meaning = "its velocity, world axes"});
-  term.add({.name = "joints", .form = kJointBounds, .unit = "rad", .meaning = "joint positions"});
-  term.add({.name = "joint_velocity_radps", .form = kJointBounds, .unit = "rad/s", .meaning = "joint velocities"});
+  term.add({.name = "com_m",
+            .form = kOneSidedBounds3,
+            .unit = "m",
+            .meaning = "centre of mass of the robot, world frame",
+            .formula = "c = Σ m_i c_i / Σ m_i"});
+  term.add({.name = "com_velocity_mps",
+            .form = kOneSidedBounds3,
+            .unit = "m/s",
+            .meaning = "its velocity, world axes",
+            .formula = "dc/dt"});
+  term.add(
+      {.name = "joints", .form = kOneSidedJointBounds, .unit = "rad", .meaning = "joint positions", .formula = "q_i"});
+  term.add({.name = "joint_velocity_radps",
+            .form = kOneSidedJointBounds,
+            .unit = "rad/s",
+            .meaning = "joint velocities",
+            .formula = "dq_i/dt"});
+  term.add({.name = "joint_torque_Nm",
+            .form = kOneSidedJointBounds,
+            .unit = "N m",
+            .meaning = "torques on the joints' links",
+            .formula = "τ_i"});
+  term.add({.name = "contact", .form = "string", .meaning = "contact of the robot, for force_N"});
+  term.add({.name = "force_N",
+            .form = kOneSidedBounds3,
+            .unit = "N",
+            .meaning = "force of the ground on the contact, world axes; zero while it is open",
+            .formula = "f"});
+  term.add({.name = "own",
+            .form = "string",
+            .meaning = "name of a term of your own, from the library or from the program that reads this file",
+            .formula = "f(y)"});
+  term.add({.name = "library",
+            .form = "string",
+            .fallback = "none",
+            .meaning = "shared library that defines it, relative to this file; needs --allow-libraries"});
+  term.add({.name = "value",
+            .form = "list of (number, \"free\" or [min, max]; min or max may be \"free\")",
+            .unit = "its own",
+            .meaning = "one entry for each row of a term of your own"});
   term.add({.name = "weight",
             .form = kOneOrThree,
             .range = kNonnegative,
@@ -408,6 +457,13 @@ void add_term(FileKeys& keys) {
             .meaning =
                 "makes the term a cost: half of weight x (value - number)², integrated over time, or once at one "
                 "moment"});
+  term.add({.name = "weight_matrix",
+            .form = "rows of numbers",
+            .unit = "1/unit²",
+            .fallback = "none",
+            .meaning =
+                "in place of weight: half of (value - number)ᵀ W (value - number), with W symmetric and positive "
+                "semidefinite, a row and a column for each entry of the value"});
   term.add({.name = "time_s",
             .form = kOneOrRange,
             .range = kNonnegative,
@@ -469,6 +525,8 @@ void add_running_weights(FileKeys& keys) {
                   "weight on the angular acceleration of the base, base frame"));
   cost.add(weight("joint_acceleration", kOneOrJoints, "s⁴/rad²", "weight on joint accelerations"));
   cost.add(weight("torque", kOneOrJoints, "1/(N m)²", "weight on torques minus torque_reference"));
+  cost.add(weight("peak_torque", "number", "1/s",
+                  "half of weight x (torque / limit)⁸, over all joints with a limit: the largest torques shrink most"));
   cost.add({.name = "torque_reference",
             .choices = {"static", "zero"},
             .fallback = "\"static\"",

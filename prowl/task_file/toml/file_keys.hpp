@@ -19,6 +19,7 @@ struct FileKey {
   std::string unit = {};                  ///< "m", "-" for a ratio, "" for none
   std::string fallback = {};              ///< default in words; "" if required, or without effect if absent
   std::string meaning = {};
+  std::string formula = {};  ///< of what a term limits or weighs; "" if the meaning says it all
 
   std::string type() const;   ///< form or choices, and range: "number > 0"
   std::string value() const;  ///< type, unit and default: "number > 0 [m]; default 0.02"

@@ -247,6 +247,15 @@ TomlBounds TomlValue::as_bounds() const {
   return {value, value};
 }
 
+TomlBounds TomlValue::as_one_sided_bounds() const {
+  if (!is_list()) return as_bounds();
+  const std::vector<TomlValue> ends = as_list(2);
+  const auto is_free = [](const TomlValue& end) { return end.is_text() && end.as_text() == "free"; };
+  if (is_free(ends[0])) return {-std::numeric_limits<double>::infinity(), ends[1].as_number()};
+  if (is_free(ends[1])) return {ends[0].as_number(), std::numeric_limits<double>::infinity()};
+  return as_bounds();
+}
+
 TomlBounds TomlValue::as_range() const {
   if (!is_list()) {
     const double value = as_number();

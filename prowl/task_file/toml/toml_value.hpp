@@ -58,8 +58,9 @@ class TomlValue {
   std::vector<TomlValue> as_list() const;
   std::vector<TomlValue> as_list(std::size_t size) const;
   Eigen::Vector3d as_vector3() const;
-  TomlBounds as_bounds() const;  ///< a number, "free" or [lower, upper]
-  TomlBounds as_range() const;   ///< a number or [min, max]
+  TomlBounds as_bounds() const;            ///< a number, "free" or [lower, upper]
+  TomlBounds as_one_sided_bounds() const;  ///< the same; one end of [lower, upper] may be "free"
+  TomlBounds as_range() const;             ///< a number or [min, max]
   /// One of the key's choices; `what` describes them in messages.
   const std::string& as_choice(const std::string& what) const { return key().choices[as_one_of(what, key().choices)]; }
   /// Index of the text in `known`; `what` describes these names in messages.

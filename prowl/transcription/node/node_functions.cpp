@@ -224,9 +224,10 @@ void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
                     values.rows.segment(torque_row(k), torques_.count()));
   placement_.evaluate(k, dynamics_.terms(), point.v, point.anchors,
                       values.rows.segment(placement_row(k), placement_.count(k)));
-  terms_.evaluate(k, dynamics_.terms(), point.q, point.v, values.rows.segment(term_row(k), terms_.count(k)));
+  const NodeReading at_node{dynamics_.terms(), point.q, point.v, point.tau, values.forces};
+  terms_.evaluate(k, at_node, values.rows.segment(term_row(k), terms_.count(k)));
   values.cost = cost_.value(point, dynamics_.terms(), values.forces);
-  const TermCosts::Value of_terms = term_costs_.value(point, dynamics_.terms());
+  const TermCosts::Value of_terms = term_costs_.value(point, at_node);
   values.cost += of_terms.running + of_terms.at_moment;
   running_cost_ = cost_.running() + of_terms.running;
 }
@@ -286,14 +287,14 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
     placement_rows.middleCols<2>(first_foothold_variable() + static_cast<Index>(2 * l)).noalias() =
         d_anchors.middleCols<3>(3 * landed_[l]).lazyProduct(landed_axes_[l]);
   }
-  auto term_rows = limits.bottomRows(terms_.count(k));
-  terms_.derivatives(k, term_rows.leftCols(nv_), term_rows.middleCols(nv_, nv_));
+  terms_.derivatives(k, forces_jacobian_, limits.bottomRows(terms_.count(k)));
 
   cost_.derivatives(point, values.forces, cost_derivatives_);
-  term_costs_.add_gradient(point, cost_derivatives_.gradient, cost_derivatives_.running_gradient);
-  force_slope_.noalias() = forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
-  values.cost_gradient = force_slope_;
+  running_gradient_.noalias() = forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
+  values.cost_gradient = running_gradient_;
+  running_gradient_.head(3 * nv_ + nu_) += cost_derivatives_.running_gradient;
   values.cost_gradient.head(3 * nv_ + nu_) += cost_derivatives_.gradient;
+  term_costs_.add_gradient(point, forces_jacobian_, values.cost_gradient, running_gradient_);
   if (free_duration_) {  // the running cost is proportional to the duration
     values.cost_gradient(num_variables()) += running_cost_ / point.duration;
   }
@@ -338,13 +339,13 @@ void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor,
   if (!free_duration_) return;
   const int duration = num_variables();
   const double factor = cost_factor / point.duration;
-  result.row(duration).head(duration) += factor * force_slope_.head(duration).transpose();
-  result.row(duration).head(3 * nv_ + nu_) += factor * cost_derivatives_.running_gradient.transpose();
-  result.col(duration).tail(num_foothold_variables()) += factor * force_slope_.tail(num_foothold_variables());
-  result(duration, duration) += 2.0 * factor * force_slope_(duration);
+  result.row(duration).head(duration) += factor * running_gradient_.head(duration).transpose();
+  result.col(duration).tail(num_foothold_variables()) += factor * running_gradient_.tail(num_foothold_variables());
+  result(duration, duration) += 2.0 * factor * running_gradient_(duration);
 }
 
-// Curvature in the forces: cones and force cost, through f(q, v, a, tau, w, shared).
+// Curvature in the forces: cones and force cost, through f(q, v, a, tau, w, shared). The user's terms of forces only
+// pull here: their curvature is that of TermEvaluation.
 void NodeFunctions::set_force_hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
                                       MatrixXd& result) {
   const VectorXd& forces = dynamics_.forces();
@@ -370,6 +371,8 @@ void NodeFunctions::set_force_hessian(const NodePoint& point, double cost_factor
     rows += 3;
   }
   kernels_.set_lower(result, bending_.leftCols(rows), bent_.leftCols(rows));
+  terms_.add_force_pull(point.node, multipliers.segment(term_row(point.node), terms_.count(point.node)), force_pull_);
+  term_costs_.add_force_pull(point, cost_factor, force_pull_);
 }
 
 // Curvature of c and f.
@@ -414,8 +417,7 @@ void NodeFunctions::add_limits_hessian(const NodePoint& point, const VectorXd& m
   result.diagonal().segment(nv_ + 6, nu_) += rates_;
   placement_.add_hessian(k, multipliers.segment(placement_row(k), placement_.count(k)), result.topLeftCorner(nv_, nv_),
                          result.block(nv_, 0, nv_, nv_));
-  terms_.add_hessian(k, multipliers.segment(term_row(k), terms_.count(k)), result.topLeftCorner(nv_, nv_),
-                     result.block(nv_, 0, nv_, nv_), result.block(nv_, nv_, nv_, nv_));
+  terms_.add_hessian(k, multipliers.segment(term_row(k), terms_.count(k)), result);
 }
 
 }  // namespace prowl

@@ -157,7 +157,7 @@ class NodeFunctions {
   double running_cost_ = 0.0;
   Eigen::MatrixXd forces_jacobian_, placement_anchors_;
   Eigen::MatrixXd bending_, bent_;                     ///< gradients of forces with curvature; times the curvature
-  Eigen::VectorXd force_slope_;                        ///< derivative of the cost with respect to the forces
+  Eigen::VectorXd running_gradient_;                   ///< of the running cost, in the tangent of the rotation
   Eigen::Matrix<double, Eigen::Dynamic, 3> rotation_;  ///< of rows_jacobian, in the tangent of the rotation
   Eigen::Vector3d rotation_gradient_;                  ///< of the cost, likewise
   Eigen::VectorXd mu_, force_pull_, joints_, rates_;

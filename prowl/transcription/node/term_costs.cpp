@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 /// a moment 1 at its node.
 std::vector<double> shares_of(const DiscreteProblem& discrete, const TermUse& use, int phase) {
   const PhaseMesh& mesh = discrete.mesh.phases[phase];
-  const auto holds = [&](int k) { return use.holds_at(phase, mesh.node_time(k, 1.0)); };
+  const auto holds = [&](int k) { return discrete.holds(use, phase, k); };
   std::vector<double> shares;
   for (int k = 0; k <= mesh.intervals(); ++k) {
     if (use.is_moment()) {
@@ -40,8 +40,9 @@ TermCosts::TermCosts(const DiscreteProblem& discrete, int phase) {
     if (!use.is_cost()) continue;
     std::vector<double> shares = shares_of(discrete, use, phase);
     if (std::ranges::all_of(shares, [](double share) { return share == 0.0; })) continue;
-    costs_.push_back({TermEvaluation(discrete.problem.robot, use), use.weight, use.reference, use.is_moment(),
-                      std::move(shares), VectorXd(use.weight.size())});
+    const MotionProblem& problem = discrete.problem;
+    costs_.push_back({TermEvaluation(problem.robot, use, contact_indices(problem.phases[phase].contacts)), use.weight,
+                      use.reference, use.is_moment(), std::move(shares), VectorXd(use.reference.size())});
   }
 }
 
@@ -50,30 +51,27 @@ double TermCosts::weight_at(const Cost& cost, const NodePoint& point) {
   return cost.is_moment ? share : share * point.cost_weight;
 }
 
-TermCosts::Value TermCosts::value(const NodePoint& point, const RigidBodyTerms& kinematics) {
+TermCosts::Value TermCosts::value(const NodePoint& point, const NodeReading& at_node) {
   Value value;
   for (Cost& cost : costs_) {
     const double factor = weight_at(cost, point);
     if (factor == 0.0) continue;
-    cost.at_node.evaluate(kinematics, point.q, point.v);
-    const VectorXd& f = cost.at_node.value();
-    cost.pull = cost.weight.cwiseProduct(f - cost.reference);
-    (cost.is_moment ? value.at_moment : value.running) += 0.5 * factor * cost.pull.dot(f - cost.reference);
+    cost.at_node.evaluate(at_node);
+    cost.error = cost.at_node.value() - cost.reference;
+    cost.pull.noalias() = cost.weight * cost.error;
+    (cost.is_moment ? value.at_moment : value.running) += 0.5 * factor * cost.pull.dot(cost.error);
   }
   return value;
 }
 
-void TermCosts::add_gradient(const NodePoint& point, VectorXd& gradient, VectorXd& running) {
+void TermCosts::add_gradient(const NodePoint& point, const MatrixXd& forces_dx, VectorXd& gradient, VectorXd& running) {
   for (Cost& cost : costs_) {
     const double factor = weight_at(cost, point);
     if (factor == 0.0) continue;
-    cost.at_node.differentiate();
-    const Eigen::Index nv = point.v.size();
+    cost.at_node.differentiate(forces_dx);
+    const MatrixXd& dx = cost.at_node.dx();
     const auto add = [&](VectorXd& result) {
-      result.head(nv).noalias() += factor * (cost.at_node.dq().transpose() * cost.pull);
-      if (cost.at_node.reads_rates()) {
-        result.segment(nv, nv).noalias() += factor * (cost.at_node.dv().transpose() * cost.pull);
-      }
+      result.segment(cost.at_node.first_variable(), dx.cols()).noalias() += factor * (dx.transpose() * cost.pull);
     };
     add(gradient);
     if (!cost.is_moment) add(running);
@@ -81,21 +79,25 @@ void TermCosts::add_gradient(const NodePoint& point, VectorXd& gradient, VectorX
 }
 
 void TermCosts::add_hessian(const NodePoint& point, double factor, MatrixXd& result) {
-  const Eigen::Index nv = point.v.size();
-  auto qq = result.topLeftCorner(nv, nv), vq = result.block(nv, 0, nv, nv), vv = result.block(nv, nv, nv, nv);
   for (Cost& cost : costs_) {
     const double of_node = factor * weight_at(cost, point);
     if (of_node == 0.0) continue;
-    const MatrixXd &dq = cost.at_node.dq(), &dv = cost.at_node.dv();
-    cost.weighted.noalias() = of_node * cost.weight.asDiagonal() * dq;
-    qq.noalias() += dq.transpose() * cost.weighted;
-    if (cost.at_node.reads_rates()) {
-      vq.noalias() += dv.transpose() * cost.weighted;
-      cost.weighted.noalias() = of_node * cost.weight.asDiagonal() * dv;
-      vv.noalias() += dv.transpose() * cost.weighted;
-    }
+    const MatrixXd& dx = cost.at_node.dx();
+    cost.weighted.noalias() = cost.weight * dx;
+    cost.weighted *= of_node;
+    const Eigen::Index first = cost.at_node.first_variable();
+    result.block(first, first, dx.cols(), dx.cols()).noalias() += dx.transpose() * cost.weighted;
     cost.weighted_pull = of_node * cost.pull;
-    cost.at_node.add_hessian(cost.weighted_pull, qq, vq, vv);
+    cost.at_node.add_hessian(cost.weighted_pull, result);
+  }
+}
+
+void TermCosts::add_force_pull(const NodePoint& point, double factor, VectorXd& pull) {
+  for (Cost& cost : costs_) {
+    const double of_node = factor * weight_at(cost, point);
+    if (of_node == 0.0) continue;
+    cost.weighted_pull = of_node * cost.pull;
+    cost.at_node.add_force_pull(cost.weighted_pull, pull);
   }
 }
 

@@ -9,9 +9,8 @@ namespace {
 
 /// Whether the term is a limit at this node of a phase, and not determined by the start or by the node before.
 bool is_row_at(const DiscreteProblem& discrete, const TermUse& use, int phase, int node) {
-  const PhaseMesh& mesh = discrete.mesh.phases[phase];
-  if (!use.holds_at(phase, mesh.node_time(node, 1.0))) return false;
-  if (node > 0) return true;
+  if (!discrete.holds(use, phase, node)) return false;
+  if (node > 0 || reads_loads(*use.term)) return true;
   if (phase > 0) return !use.holds_at(phase - 1, 1.0);
   const BoundaryConstraint& start = discrete.problem.start();
   return !start.fixes_configuration() || (reads_rates(*use.term) && !start.fixes_velocity());
@@ -24,8 +23,8 @@ TermRows::TermRows(const DiscreteProblem& discrete, int phase) {
   rows_.resize(discrete.mesh.phases[phase].intervals() + 1);
   for (const TermUse& use : problem.terms) {
     if (use.is_cost()) continue;
-    const double size = natural_size(problem.robot, use.term->unit());
-    const double room = use.is_moment() ? 0.0 : 0.5 * term_tolerance(problem.goal_tolerance, use.term->unit());
+    const double size = natural_size(problem.robot, *use.term);
+    const double room = use.is_moment() ? 0.0 : 0.5 * term_tolerance(problem, *use.term);
     bool is_used = false;
     for (int k = 0; k < static_cast<int>(rows_.size()); ++k) {
       if (!is_row_at(discrete, use, phase, k)) continue;
@@ -38,8 +37,8 @@ TermRows::TermRows(const DiscreteProblem& discrete, int phase) {
       }
     }
     if (!is_used) continue;
-    terms_.push_back({TermEvaluation(problem.robot, use), use.name, use.is_moment(), use.term->unit(), use.term->rows(),
-                      size, Eigen::VectorXd::Zero(use.term->num_rows())});
+    terms_.push_back({use, TermEvaluation(problem.robot, use, contact_indices(problem.phases[phase].contacts)), size,
+                      Eigen::VectorXd::Zero(use.term->num_rows())});
   }
 }
 
@@ -50,16 +49,16 @@ int TermRows::most_rows() const {
 }
 
 std::string TermRows::describe(int k, int row) const {
-  const Limit& term = terms_[at(k, row).term];
-  return "term '" + term.name + "', " + term.rows[at(k, row).row];
+  const TermUse& use = terms_[at(k, row).term].use;
+  return "term '" + use.name + "', " + use.term->rows()[at(k, row).row];
 }
 
 MotionLimit TermRows::limit(int k, int row) const {
   const Limit& term = terms_[at(k, row).term];
   return {.kind = LimitKind::term,
-          .is_moment = term.is_moment,
+          .is_moment = term.use.is_moment(),
           .subject = describe(k, row),
-          .unit = term.unit,
+          .unit = term.use.term->unit(),
           .si = term.size,
           .size = term.size};
 }
@@ -75,30 +74,42 @@ void TermRows::for_each_term(int k, const Each& each) {
   }
 }
 
-void TermRows::evaluate(int k, const RigidBodyTerms& kinematics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                        Eigen::Ref<Eigen::VectorXd> values) {
+template <class Each>
+void TermRows::for_each_multiplied(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, const Each& each) {
   for_each_term(k, [&](Limit& term, int first, int count) {
-    term.at_node.evaluate(kinematics, q, v);
+    term.multipliers.setZero();
+    for (int row = first; row < first + count; ++row) term.multipliers(at(k, row).row) = multipliers(row) / term.size;
+    each(term.at_node, term.multipliers);
+  });
+}
+
+void TermRows::evaluate(int k, const NodeReading& at_node, Eigen::Ref<Eigen::VectorXd> values) {
+  for_each_term(k, [&](Limit& term, int first, int count) {
+    term.at_node.evaluate(at_node);
     for (int row = first; row < first + count; ++row) values(row) = term.at_node.value()(at(k, row).row) / term.size;
   });
 }
 
-void TermRows::derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv) {
+void TermRows::derivatives(int k, const Eigen::MatrixXd& forces_dx, Eigen::Ref<Eigen::MatrixXd> dx) {
   for_each_term(k, [&](Limit& term, int first, int count) {
-    term.at_node.differentiate();
+    term.at_node.differentiate(forces_dx);
+    const Eigen::MatrixXd& of_term = term.at_node.dx();
     for (int row = first; row < first + count; ++row) {
-      dq.row(row) = term.at_node.dq().row(at(k, row).row) / term.size;
-      dv.row(row) = term.at_node.dv().row(at(k, row).row) / term.size;
+      dx.row(row).segment(term.at_node.first_variable(), of_term.cols()) = of_term.row(at(k, row).row) / term.size;
     }
   });
 }
 
-void TermRows::add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
-                           Eigen::Ref<Eigen::MatrixXd> vq, Eigen::Ref<Eigen::MatrixXd> vv) {
-  for_each_term(k, [&](Limit& term, int first, int count) {
-    term.multipliers.setZero();
-    for (int row = first; row < first + count; ++row) term.multipliers(at(k, row).row) = multipliers(row) / term.size;
-    term.at_node.add_hessian(term.multipliers, qq, vq, vv);
+void TermRows::add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers,
+                           Eigen::Ref<Eigen::MatrixXd> hessian) {
+  for_each_multiplied(k, multipliers, [&](TermEvaluation& term, const Eigen::VectorXd& of_term) {
+    term.add_hessian(of_term, hessian);
+  });
+}
+
+void TermRows::add_force_pull(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::VectorXd& pull) {
+  for_each_multiplied(k, multipliers, [&](TermEvaluation& term, const Eigen::VectorXd& of_term) {
+    term.add_force_pull(of_term, pull);
   });
 }
 

@@ -12,8 +12,8 @@ namespace prowl {
 
 /// Limits of the user's terms in one phase, at its nodes k = 0 ... intervals. Each row is divided by natural_size().
 ///
-/// A start that is fixed has no rows, and of the two nodes of a phase transition only the earlier has: q and v are
-/// the same at both.
+/// Terms of q and v have no rows at a start that is fixed, and of the two nodes of a phase transition only at the
+/// earlier, as q and v are the same at both.
 class TermRows {
  public:
   TermRows(const DiscreteProblem& discrete, int phase);
@@ -25,14 +25,14 @@ class TermRows {
   std::string describe(int k, int row) const;
   MotionLimit limit(int k, int row) const;  ///< its kind, subject, unit, si and size
 
-  /// `kinematics`: at the configuration q.
-  void evaluate(int k, const RigidBodyTerms& kinematics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                Eigen::Ref<Eigen::VectorXd> values);
-  /// After evaluate(): derivatives in the tangent of q and in v; overwrites all entries.
-  void derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv);
-  /// After derivatives(): adds the second derivatives of multipliers . rows; vq has one row for each velocity.
-  void add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
-                   Eigen::Ref<Eigen::MatrixXd> vq, Eigen::Ref<Eigen::MatrixXd> vv);
+  void evaluate(int k, const NodeReading& at_node, Eigen::Ref<Eigen::VectorXd> values);
+  /// After evaluate(): derivatives in all variables of the node, whose entries are zero before. `forces_dx`: those of
+  /// the forces.
+  void derivatives(int k, const Eigen::MatrixXd& forces_dx, Eigen::Ref<Eigen::MatrixXd> dx);
+  /// After derivatives(): adds the second derivatives of multipliers . rows at straight forces.
+  void add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::Ref<Eigen::MatrixXd> hessian);
+  /// Adds the derivative of multipliers . rows in the forces.
+  void add_force_pull(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::VectorXd& pull);
 
  private:
   struct Row {
@@ -40,11 +40,8 @@ class TermRows {
     double lower, upper;  ///< scaled
   };
   struct Limit {
+    TermUse use;
     TermEvaluation at_node;
-    std::string name;
-    bool is_moment;
-    std::string unit;
-    std::vector<std::string> rows;
     double size;                  ///< natural_size()
     Eigen::VectorXd multipliers;  ///< work space
   };
@@ -52,6 +49,9 @@ class TermRows {
   /// Rows of one term follow each other: calls each(limit, first row, count) for each term at node k.
   template <class Each>
   void for_each_term(int k, const Each& each);
+  /// The same with the multipliers of all rows of the term: calls each(evaluation, multipliers).
+  template <class Each>
+  void for_each_multiplied(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, const Each& each);
 
   std::vector<Limit> terms_;
   std::vector<std::vector<Row>> rows_;

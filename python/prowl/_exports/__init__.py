@@ -37,6 +37,7 @@ def export(
     rate: float | None = None,
     simulation: bool | _prowl.Simulation = False,
     package_dirs: Folders = (),
+    allow_libraries: bool = False,
 ) -> Export:
     """Writes a plan for other programs, like `prowl export`.
 
@@ -44,7 +45,7 @@ def export(
     and "mujoco". out: folder for the files, which may contain others; None: exports in the plan folder. rate:
     samples per second; None: the nodes of the plan, or all rows of the simulation. simulation: export the
     true motion of this Simulation, or if True of simulate.csv in the plan folder, instead of the plan.
-    package_dirs: see read_task().
+    package_dirs, allow_libraries: see read_task().
 
     Needs numpy, for "mcap" also mcap and mcap-ros2-support. Warns if the plan is not good, and for "mujoco"
     if a mesh cannot be read. Raises InputError, FileError; replaces existing files one by one, each
@@ -55,7 +56,7 @@ def export(
         if name not in _prowl.export_format_names():
             choices = ", ".join(_prowl.export_format_names())
             raise _prowl.InputError(f"format: {name} is not allowed; need one of {choices}")
-    source = as_plan(plan, package_dirs)
+    source = as_plan(plan, package_dirs, allow_libraries)
     if simulation is not False and "csv" in names:
         simulated = os.path.join(source.path or "", "simulate.csv")
         raise _prowl.InputError(f"format: csv is not allowed; {simulated} contains the simulation already")
@@ -88,7 +89,8 @@ def _simulated(plan: _prowl.Plan, simulation: bool | _prowl.Simulation, rate: fl
     if isinstance(simulation, bool):
         return sample_simulation(plan, rate)
     with folder_with(plan, simulation) as folder:
-        return sample_simulation(as_plan(folder), rate)
+        again = _prowl.read_plan(folder, own_terms=plan.task.own_terms, allow_libraries=plan.task.allow_libraries)
+        return sample_simulation(again, rate)
 
 
 def _files(

@@ -30,14 +30,15 @@ def figures(
     out: str | os.PathLike[str] | None = None,
     joint: str | None = None,
     package_dirs: Folders = (),
+    allow_libraries: bool = False,
     on_progress: Callable[[int, int], object] | None = None,
 ) -> Figures:
     """Draws a plan, its gains and its simulation, like `prowl figures`: SVG, PNG and CSV.
 
     plan: a Plan, or a plan folder. simulation: of the plan; None: that in the plan folder. out: folder for
     the figures, which contains nothing else; None: figures in the plan folder. joint: for the plot of gains;
-    None: the first knee, or else the last joint of the first leg. package_dirs: see read_task(). on_progress:
-    called with the number of finished and of all figures.
+    None: the first knee, or else the last joint of the first leg. package_dirs, allow_libraries: see
+    read_task(). on_progress: called with the number of finished and of all figures.
 
     Needs numpy, scipy and matplotlib. Omits figures without data (no gains or simulation), with a warning.
     Raises InputError for an invalid plan or joint, FileError if `out` cannot be replaced; then it writes
@@ -46,7 +47,7 @@ def figures(
     with needs("figures"):
         from . import draw, tables  # imports Matplotlib, which takes a second
 
-    drawn = as_plan(plan, package_dirs)
+    drawn = as_plan(plan, package_dirs, allow_libraries)
     folder = output_folder(drawn, out, "figures")
     gains_joint = tables.gains_joint(drawn.robot, joint)
     _prowl.check_replaceable(folder, _prowl.figure_file_names())
