@@ -1,4 +1,4 @@
-"""The gallery shows every shipped task, the README a robot that moves, and scripts/pictures makes such pictures.
+"""The gallery shows every shipped task, the page of examples each of them, the README a robot that moves, and scripts/pictures makes such pictures.
 
 pictures_test.py PROWL ROBOTS_DATA
 """
@@ -15,7 +15,7 @@ from PIL import Image
 ROOT = pathlib.Path(__file__).parents[2]
 PICTURES = ROOT / "docs/pictures"
 ENTRY = re.compile(
-    r"!\[[^\]]+\]\(pictures/(?P<picture>[\w-]+\.webp)\)<br>\[[^\]]+\]\(\.\./tasks/(?P<task>\w+/\w+)\.toml\)"
+    r"!\[[^\]]+\]\(pictures/(?P<picture>[\w-]+\.webp)\)<br>\[[^\]]+\]\(\.\./(?P<task>tasks/\w+/\w+|examples/tasks/\w+)\.toml\)"
 )
 command = robots = None
 
@@ -33,16 +33,21 @@ def size(path: pathlib.Path) -> tuple[int, int]:
 
 
 class Pictures(unittest.TestCase):
-    def test_the_gallery_shows_every_shipped_task(self):
-        shown = {
-            match["task"]: match["picture"] for match in ENTRY.finditer((ROOT / "docs/gallery.md").read_text("utf-8"))
-        }
-        shipped = {path.relative_to(ROOT / "tasks").with_suffix("").as_posix() for path in ROOT.glob("tasks/*/*.toml")}
-        self.assertGreater(len(shipped), 20)
+    def test_a_page_shows_every_shipped_task_and_another_every_example(self):
+        for page, tasks, least in (("gallery", "tasks/*/*.toml", 20), ("examples", "examples/tasks/*.toml", 11)):
+            with self.subTest(page=page):
+                self.check_page(page, tasks, least)
+
+    def check_page(self, page: str, tasks: str, least: int):
+        text = (ROOT / f"docs/{page}.md").read_text("utf-8")
+        shown = {match["task"]: match["picture"] for match in ENTRY.finditer(text)}
+        shipped = {path.relative_to(ROOT).with_suffix("").as_posix() for path in ROOT.glob(tasks)}
+        self.assertGreater(len(shipped), least)
         self.assertEqual(set(shown), shipped)
         for task, name in shown.items():
             with self.subTest(task=task):
-                self.assertEqual(name, f"{task.replace('/', '-')}.webp")
+                motion = task.replace("examples/tasks", "examples").removeprefix("tasks/")
+                self.assertEqual(name, f"{motion.replace('/', '-')}.webp")
                 self.assertEqual(size(PICTURES / name), (240, 180))
                 self.assertGreater(contrast(PICTURES / name), 100)
         self.assertLess(sum((PICTURES / name).stat().st_size for name in shown.values()), 2e6)
