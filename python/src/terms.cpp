@@ -166,14 +166,15 @@ void bind_terms(nb::module_& module) {
   module.def(
       "quantity_names", [] { return std::vector<std::string>(std::begin(kQuantityNames), std::end(kQuantityNames)); },
       "Kinds of quantities that a term may read.");
-  module.def("make_term", &make_term, nb::arg("reads"), nb::arg("rows"), nb::arg("unit"), nb::arg("size"),
-             nb::arg("value"), nb::arg("jacobian"), nb::arg("hessian"),
-             nb::sig("def make_term(reads: collections.abc.Sequence[tuple[str, str]], rows: "
-                     "collections.abc.Sequence[str], unit: str, size: float, value: tuple[collections.abc.Callable[[], "
-                     "object], list[numpy.ndarray], numpy.ndarray], jacobian: tuple[collections.abc.Callable[[], object], "
-                     "list[numpy.ndarray], numpy.ndarray], hessian: tuple[collections.abc.Callable[[], object], "
-                     "list[numpy.ndarray], numpy.ndarray]) -> Term"),
-             "prowl.own_term with functions that fill arrays: each is (call, arguments, result).");
+  module.def(
+      "make_term", &make_term, nb::arg("reads"), nb::arg("rows"), nb::arg("unit"), nb::arg("size"), nb::arg("value"),
+      nb::arg("jacobian"), nb::arg("hessian"),
+      nb::sig("def make_term(reads: collections.abc.Sequence[tuple[str, str]], rows: "
+              "collections.abc.Sequence[str], unit: str, size: float, value: tuple[collections.abc.Callable[[], "
+              "object], list[numpy.ndarray], numpy.ndarray], jacobian: tuple[collections.abc.Callable[[], object], "
+              "list[numpy.ndarray], numpy.ndarray], hessian: tuple[collections.abc.Callable[[], object], "
+              "list[numpy.ndarray], numpy.ndarray]) -> Term"),
+      "prowl.own_term with functions that fill arrays: each is (call, arguments, result).");
 }
 
 }  // namespace prowl::python

@@ -89,7 +89,9 @@ def test_a_folder_needs_the_term_again(held, tmp_path):
 
 
 def test_a_wrong_derivative_is_named():
-    with pytest.raises(prowl.InputError, match="derivative of 'z' with respect to the position of 'lf_lowerleg', x is 2"):
+    with pytest.raises(
+        prowl.InputError, match="derivative of 'z' with respect to the position of 'lf_lowerleg', x is 2"
+    ):
         prowl.solve(crouch(of_functions(jacobian=lambda y: [[2, 0, 1]])))
     with pytest.raises(prowl.InputError, match="second derivative of all rows"):
         prowl.solve(crouch(of_functions(hessian=lambda y, m: np.eye(3))))
