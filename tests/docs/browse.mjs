@@ -49,7 +49,7 @@ for (const [look, { colorScheme, width }] of Object.entries(looks)) {
     await page.goto(pathToFileURL(join(site, name)).href);
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     check(name.startsWith("api/") || overflow <= 0, `${name}, ${look}: ${overflow} pixels wider than the window`);
-    if (/^(index|concepts|theory|slope)\.html$/.test(name)) {
+    if (/^(index|concepts|theory|examples)\.html$/.test(name)) {
       await page.screenshot({
         path: join(pictures, `${name.replace(".html", "")}_${look}.png`),
         fullPage: name !== "theory.html",

@@ -6,6 +6,7 @@ site_test.py PROWL ROBOTS_DATA
 import html.parser
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -99,6 +100,7 @@ class Site(unittest.TestCase):
     def test_in_a_browser(self):
         node = ROOT / ".venv" / "bin" / "node"
         pictures = self.out.with_name("site-pictures")
+        shutil.rmtree(pictures, ignore_errors=True)  # those of pages that are gone
         run = subprocess.run(
             [node, pathlib.Path(__file__).with_name("browse.mjs"), self.out, pictures], capture_output=True, text=True
         )
