@@ -27,7 +27,7 @@ void linearise(benchmark::State& state, const TermUse& use) {
   prowl::TermEvaluation term(robot, use, contacts);
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(columns, columns);
   for (auto _ : state) {
-    term.evaluate({kinematics, point.q, point.v, point.tau, forces});
+    term.evaluate({kinematics, point.q, point.v, point.tau, forces, 0.0});
     term.differentiate(forces_dx);
     term.add_hessian(multipliers, hessian);
     benchmark::DoNotOptimize(hessian.data());

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "alternatives/centroidal/centroidal_contacts.hpp"
-#include "alternatives/centroidal/centroidal_kinematics.hpp"
 #include "alternatives/centroidal/centroidal_layout.hpp"
 #include "alternatives/centroidal/sparse_entries.hpp"
+#include "prowl/dynamics/centroidal_kinematics.hpp"
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/motion/friction_limit.hpp"
 #include "prowl/transcription/node/node_cost.hpp"

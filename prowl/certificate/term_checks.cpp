@@ -45,6 +45,19 @@ struct TermChecks::Workspace {
     return placement(body).rotation() * (motion.linear() + motion.angular().cross(in_body));
   }
 
+  /// Of the bodies about the centre of mass c: their own, by rotational inertia, and that of their masses.
+  Vector3d angular_momentum() const {
+    const Vector3d c = center_of_mass(false);
+    Vector3d sum = Vector3d::Zero();
+    for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
+      const pinocchio::Inertia& inertia = model.inertias[joint];
+      const int body = static_cast<int>(joint - kBaseJoint);
+      sum += placement(body).rotation() * (inertia.inertia() * data.v[joint].angular());
+      sum += inertia.mass() * (placement(body).act(inertia.lever()) - c).cross(velocity(body, inertia.lever()));
+    }
+    return sum;
+  }
+
   Vector3d center_of_mass(bool is_rate) const {
     Vector3d sum = Vector3d::Zero();
     for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
@@ -67,10 +80,12 @@ struct TermChecks::Workspace {
       }
       case Kind::center_of_mass: return center_of_mass(false);
       case Kind::center_of_mass_velocity: return center_of_mass(true);
+      case Kind::angular_momentum: return angular_momentum();
       case Kind::joints: return point.q.tail(problem.robot.nu());
       case Kind::joint_rates: return point.v.tail(problem.robot.nu());
       case Kind::torques: return point.tau;
       case Kind::force: return force.segment<3>(3 * contact);
+      case Kind::time: return VectorXd::Constant(1, point.time);
     }
     return {};
   }
@@ -84,6 +99,7 @@ struct TermChecks::Workspace {
       y.segment(first, entries.size()) = entries;
       first += entries.size();
     }
+    f.setZero();
     check.use.term->value(y, f);
     for (Eigen::Index row = 0; row < f.size(); ++row) {
       const double lower = check.use.lower(row), upper = check.use.upper(row);

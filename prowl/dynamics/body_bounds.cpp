@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/model/configuration.hpp"
+#include "prowl/dynamics/centroidal_kinematics.hpp"
+#include "prowl/model/body_tree.hpp"
 #include "prowl/model/pinocchio_model.hpp"
 
 namespace prowl {
@@ -55,6 +55,19 @@ ContactReach contact_reach(const RobotModel& robot, int contact) {
   return {chain.root, chain.length + tip.norm(), chain.first_joint};
 }
 
+double largest_distance(const RobotModel& robot, const BodyPoint& a, const BodyPoint& b) {
+  const std::vector<RigidBody> bodies = body_tree(robot).bodies;
+  BodyPoint one = a, other = b;
+  double length = 0.0;
+  while (one.body != other.body) {  // parents come first, so the later body is not before the other
+    BodyPoint& later = one.body > other.body ? one : other;
+    length += later.in_body.norm() + largest_travel(robot, later.body - 1);
+    later.in_body = bodies[later.body].placement.translation();
+    later.body = bodies[later.body].parent;
+  }
+  return length + (one.in_body - other.in_body).norm();
+}
+
 std::vector<JointLever> joint_levers(const RobotModel& robot, int contact) {
   const PinocchioModel& pin = robot.pinocchio();
   const pinocchio::Frame& frame = pin.model.frames[pin.contact_frames[contact]];
@@ -70,15 +83,9 @@ std::vector<JointLever> joint_levers(const RobotModel& robot, int contact) {
 }
 
 MassMotion centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  RigidBodyTerms terms(robot);
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(robot.nv());
-  terms.update_with_derivatives(q, rest, rest);
-  // The rows of the base force are m (1, -[c]x, ...), c in the base frame; times v they give the momentum.
-  const Eigen::Matrix3d moment = terms.mass_matrix().block<3, 3>(0, 3) / robot.mass();
-  const Eigen::Vector3d c(moment(1, 2), moment(2, 0), moment(0, 1));
-  const Eigen::Vector3d momentum = terms.mass_matrix().topRows<3>() * v;
-  const Eigen::Matrix3d R = base_rotation(q);
-  return {base_position(q) + R * c, R * momentum / robot.mass()};
+  CentroidalKinematics kinematics(robot);
+  kinematics.update(q, v);
+  return {kinematics.com(), kinematics.momentum().head<3>() / robot.mass()};
 }
 
 MassReach mass_reach(const RobotModel& robot) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/robot_model.hpp"
 
 namespace prowl {
@@ -19,6 +20,10 @@ struct ContactReach {
   int first_joint = -1;  ///< index into RobotModel::joint_names(); -1 for a contact on the base itself
 };
 ContactReach contact_reach(const RobotModel& robot, int contact);
+
+/// Bound on the distance of two points of bodies [m], for all angles of the joints, also beyond their limits: the way
+/// along the joints between them. Infinite beyond a prismatic joint without limits.
+double largest_distance(const RobotModel& robot, const BodyPoint& a, const BodyPoint& b);
 
 /// A joint between the base and a contact point, and how fast it moves that point at most.
 struct JointLever {

@@ -12,6 +12,7 @@
 #include "prowl/feasibility/reach_check.hpp"
 #include "prowl/feasibility/slide_check.hpp"
 #include "prowl/feasibility/standing_load.hpp"
+#include "prowl/feasibility/term_reach_check.hpp"
 #include "prowl/model/surface.hpp"
 
 namespace prowl {
@@ -95,6 +96,7 @@ std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase
 
 std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem, const ContactSchedule& schedule) {
   std::vector<std::string> reasons = contacts_out_of_reach(problem, schedule);
+  for (std::string& reason : terms_out_of_reach(problem, schedule)) reasons.push_back(std::move(reason));
   if (const auto reason = why_it_slides(problem, schedule)) reasons.push_back(*reason);
   return reasons;
 }

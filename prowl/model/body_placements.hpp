@@ -14,13 +14,13 @@ class BodyPlacements {
  public:
   explicit BodyPlacements(const RobotModel& robot);
   ~BodyPlacements();
+  BodyPlacements(BodyPlacements&&) noexcept;
 
   /// World placements of the bodies, in the order of BodyTree::bodies; q as in RobotModel. Valid until the next call.
   const std::vector<Eigen::Isometry3d>& at(const Eigen::VectorXd& q);
 
  private:
-  struct Workspace;  // Pinocchio's Data
-  const RobotModel& robot_;
+  struct Workspace;  // Pinocchio's model and Data
   std::unique_ptr<Workspace> workspace_;
   std::vector<Eigen::Isometry3d> placements_;
 };

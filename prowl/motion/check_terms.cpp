@@ -27,6 +27,10 @@ template <class... Args>
 void check_names(const MotionProblem& problem, const std::string& field, const Term& term) {
   if (term.reads().empty()) refuse_term(field + ".term", "reads nothing; need one quantity or more");
   if (term.num_rows() == 0) refuse_term(field + ".term", "has no rows; need one or more");
+  if (!(term.size() >= 0.0 && std::isfinite(term.size()))) {
+    refuse_term(field + ".term", "a size of {} is not allowed; need a finite number, or 0 for that of the unit",
+                term.size());
+  }
   for (const Quantity& quantity : term.reads()) {
     try {
       if (is_of_frame(quantity.kind)) robot_frame(problem.robot, quantity.name);
@@ -37,27 +41,43 @@ void check_names(const MotionProblem& problem, const std::string& field, const T
   }
 }
 
-/// At a moving state near the start, without its symmetries: at them wrong derivatives may be right.
-void check_derivatives(const MotionProblem& problem, const std::string& field, const TermUse& use) {
-  const RobotModel& robot = problem.robot;
-  const auto mixed = [](Eigen::Index size, double largest) -> VectorXd {
-    return largest * VectorXd::LinSpaced(size, 1.0, static_cast<double>(size)).array().sin();
-  };
-  const VectorXd q = integrate(problem.start_configuration(), mixed(robot.nv(), 0.2)), v = mixed(robot.nv(), 1.0);
-  const VectorXd tau = mixed(robot.nu(), robot.weight() * robot.size());
+/// Numbers of all sizes up to the largest, without the symmetries at which wrong derivatives may be right.
+VectorXd mixed(Eigen::Index size, double largest) {
+  return largest * VectorXd::LinSpaced(size, 1.0, static_cast<double>(size)).array().sin();
+}
+
+std::vector<int> all_contacts(const RobotModel& robot) {
   std::vector<int> contacts(robot.contacts().size());
   for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i] = static_cast<int>(i);
-  const VectorXd forces = mixed(3 * std::ssize(contacts), robot.weight());
+  return contacts;
+}
+
+/// At the first of some moving states near the start at which the term is defined; also with contacts that all push.
+void check_derivatives(const MotionProblem& problem, const std::string& field, const TermUse& use) {
+  const RobotModel& robot = problem.robot;
+  const std::vector<int> contacts = all_contacts(robot);
   RigidBodyTerms kinematics(robot);
-  kinematics.update_kinematics(q);
   TermEvaluation term(robot, use, contacts);
-  try {
-    term.evaluate({kinematics, q, v, tau, forces});
-  } catch (const NumericalError&) {
-    return;  // not defined there
+  for (const double share : {1.0, -1.0, 0.1, -0.1}) {
+    for (const bool pushes : {false, true}) {
+      const VectorXd q = integrate(problem.start_configuration(), mixed(robot.nv(), 0.2 * share));
+      const VectorXd v = mixed(robot.nv(), share), tau = mixed(robot.nu(), share * robot.weight() * robot.size());
+      VectorXd forces = mixed(3 * std::ssize(contacts), share * robot.weight());
+      if (pushes) forces = forces.cwiseAbs();
+      kinematics.update_kinematics(q);
+      std::string wrong;
+      try {
+        term.evaluate({kinematics, q, v, tau, forces, 1.0});
+        wrong = wrong_derivative(robot, *use.term, term.reading());
+      } catch (const NumericalError&) {
+        continue;  // not defined there
+      } catch (const InputError& error) {
+        wrong = error.what();
+      }
+      if (!wrong.empty()) refuse_term(field + ".term", "{}", wrong);
+      return;
+    }
   }
-  const std::string wrong = wrong_derivative(robot, *use.term, term.reading());
-  if (!wrong.empty()) refuse_term(field + ".term", "{}", wrong);
 }
 
 void check_moment(const MotionProblem& problem, const std::string& field, PhaseFraction moment) {
@@ -80,6 +100,20 @@ void check_term_span(const MotionProblem& problem, const std::string& field, con
                         use.to == PhaseFraction::end_of(static_cast<int>(problem.phases.size()) - 1);
   if (problem.cycle && !is_whole) {
     refuse_term(field + ".from", "a part of a motion that repeats itself is not allowed; need all of it");
+  }
+}
+
+/// A free duration would move the time of all later nodes.
+void check_time(const MotionProblem& problem, const std::string& field, const TermUse& use) {
+  const std::vector<Quantity>& reads = use.term->reads();
+  if (std::ranges::count(reads, Quantity::Kind::time, &Quantity::kind) == 0) return;
+  for (int p = 0; p <= use.to.phase; ++p) {
+    if (problem.phases[p].duration.is_fixed()) continue;
+    refuse_term(field + ".term", "reads the time, which the free duration of phase '{}' changes; need fixed durations",
+                problem.phases[p].name);
+  }
+  if (problem.cycle && problem.cycle->count > 1) {
+    refuse_term(field + ".term", "reads the time, which differs from cycle to cycle; need one cycle");
   }
 }
 
@@ -137,6 +171,32 @@ void check_term_cost(const std::string& field, const TermUse& use) {
   check_weight(field + ".weight", use.weight, rows);
 }
 
+/// The force of an open contact is zero whatever the motion.
+void check_open_contacts(const MotionProblem& problem, const std::string& field, const TermUse& use) {
+  const std::vector<Quantity>& reads = use.term->reads();
+  const auto is_force = [](const Quantity& quantity) { return quantity.kind == Quantity::Kind::force; };
+  if (use.is_cost() || !std::ranges::all_of(reads, is_force)) return;
+  VectorXd f = VectorXd::Zero(use.term->num_rows());
+  use.term->value(VectorXd::Zero(3 * std::ssize(reads)), f);
+  for (int p = use.from.phase; p <= use.to.phase; ++p) {
+    const bool is_outside = !use.is_moment() && ((p == use.from.phase && use.from.fraction == 1.0) ||
+                                                 (p == use.to.phase && use.to.fraction == 0.0));
+    if (is_outside) continue;
+    const std::vector<int> held = contact_indices(problem.phases[p].contacts);
+    const auto is_open = [&](const Quantity& quantity) {
+      return std::ranges::count(held, problem.robot.contact_index(quantity.name)) == 0;
+    };
+    if (!std::ranges::all_of(reads, is_open)) continue;
+    for (int row = 0; row < use.term->num_rows(); ++row) {
+      const double outside = std::max(use.lower(row) - f(row), f(row) - use.upper(row));
+      if (outside <= term_tolerance(problem, *use.term)) continue;
+      refuse_term(field,
+                  "in phase '{}' {} is {:.4g} {}, as contact {} is open, {:.4g} beyond its bound; need another phase",
+                  problem.phases[p].name, use.term->rows()[row], f(row), use.term->unit(), reads.front().name, outside);
+    }
+  }
+}
+
 /// No later motion can change a fixed start.
 void check_term_at_start(const MotionProblem& problem, const std::string& field, const TermUse& use,
                          const RigidBodyTerms& kinematics) {
@@ -146,7 +206,7 @@ void check_term_at_start(const MotionProblem& problem, const std::string& field,
   TermEvaluation term(problem.robot, use, {});
   const VectorXd none;
   try {
-    term.evaluate({kinematics, start.q_ref, start.velocity_lower, none, none});
+    term.evaluate({kinematics, start.q_ref, start.velocity_lower, none, none, 0.0});
   } catch (const NumericalError& error) {
     refuse_term(field, "at the start: {}; need another start or reference", error.what());
   }
@@ -163,20 +223,32 @@ void check_term_at_start(const MotionProblem& problem, const std::string& field,
 /// Every cycle must keep the limits and have the cost of the first.
 void check_term_in_cycles(const MotionProblem& problem, const std::string& field, const TermUse& use) {
   constexpr double kSame = 1e-9;
-  if (!problem.cycle || problem.cycle->count == 1 || reads_loads(*use.term)) return;
-  TermEvaluation term(problem.robot, use, {});
-  RigidBodyTerms kinematics(problem.robot);
-  const VectorXd &q = problem.start_configuration(), ones = VectorXd::Ones(problem.robot.nv()), none;
-  const auto value = [&](const VectorXd& at) -> VectorXd {
+  if (!problem.cycle || problem.cycle->count == 1) return;
+  const RobotModel& robot = problem.robot;
+  const std::vector<int> contacts = all_contacts(robot);
+  TermEvaluation term(robot, use, contacts);
+  RigidBodyTerms kinematics(robot);
+  const VectorXd &q = problem.start_configuration(), ones = VectorXd::Ones(robot.nv());
+  const VectorXd tau = mixed(robot.nu(), robot.weight() * robot.size());
+  const VectorXd forces = mixed(3 * std::ssize(contacts), robot.weight());
+  VectorXd turned = forces;
+  for (auto force : turned.reshaped(3, std::ssize(contacts)).colwise())
+    force = (problem.cycle->rotation() * force).eval();
+  const auto value = [&](const VectorXd& at, const VectorXd& with) -> VectorXd {
     kinematics.update_kinematics(at);
-    term.evaluate({kinematics, at, ones, none, none});
+    term.evaluate({kinematics, at, ones, tau, with, 0.0});
     return term.value();
   };
-  const VectorXd change = value(problem.cycle->moved_configuration(q)) - value(q);
+  VectorXd change;
+  try {
+    change = value(problem.cycle->moved_configuration(q), turned) - value(q, forces);
+  } catch (const NumericalError& error) {
+    refuse_term(field + ".term", "at the start: {}", error.what());
+  }
   for (int row = 0; row < use.term->num_rows(); ++row) {
     const bool counts = use.is_cost() ? !use.weight.row(row).isZero(0.0)
                                       : std::isfinite(use.lower(row)) || std::isfinite(use.upper(row));
-    if (!counts || std::abs(change(row)) <= kSame) continue;
+    if (!counts || std::abs(change(row)) <= kSame * natural_size(robot, *use.term)) continue;
     refuse_term(field, "{} changes by {:.4g} {} from cycle to cycle; need a quantity that repeats itself",
                 use.term->rows()[row], change(row), use.term->unit());
   }
@@ -199,7 +271,9 @@ void check_terms(const MotionProblem& problem) {
     check_names(problem, field, *use.term);
     check_derivatives(problem, field, use);
     check_term_span(problem, field, use);
+    check_time(problem, field, use);
     use.is_cost() ? check_term_cost(field, use) : check_limit(field, use);
+    check_open_contacts(problem, field, use);
     check_term_at_start(problem, field, use, kinematics);
     check_term_in_cycles(problem, field, use);
   }

@@ -26,8 +26,12 @@ std::vector<EntryLimit> entry_limits(const MotionProblem& problem) {
   return limits;
 }
 
-/// Whether there is a moment at which both hold.
+/// Whether there is a moment at which both hold; of loads, which may jump at a phase transition, one inside a phase.
 bool overlap(const TermUse& a, const TermUse& b) {
+  if (reads_loads(*a.term) && !a.is_moment() && !b.is_moment()) {
+    const auto time = [](PhaseFraction at) { return at.phase + at.fraction; };
+    return std::max(time(a.from), time(b.from)) < std::min(time(a.to), time(b.to));
+  }
   return a.holds_at(b.from.phase, b.from.fraction) || b.holds_at(a.from.phase, a.from.fraction);
 }
 

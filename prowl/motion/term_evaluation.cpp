@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "prowl/error.hpp"
-#include "prowl/model/body_tree.hpp"
 #include "prowl/model/robot_frame.hpp"
 
 namespace prowl {
@@ -15,16 +14,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Kind = Quantity::Kind;
 
-namespace {
-
-bool is_of_points(Kind kind) { return !is_of_joints(kind) && kind != Kind::force; }
-
-}  // namespace
-
 TermEvaluation::TermEvaluation(const RobotModel& robot, const TermUse& use, const std::vector<int>& contacts)
     : name_(use.name),
       term_(use.term),
-      reads_rates_(false),
+      mass_(robot.mass()),
       kinematics_({}),
       at_rest_(VectorXd::Zero(robot.nv())),
       mixed_(robot.nv(), robot.nv()) {
@@ -35,7 +28,8 @@ TermEvaluation::TermEvaluation(const RobotModel& robot, const TermUse& use, cons
     block.entry = entry;
     block.point_row = 3 * std::ssize(points);
     points.insert(points.end(), block.points.begin(), block.points.end());
-    reads_rates_ = reads_rates_ || (is_rate(quantity.kind) && is_of_points(quantity.kind));
+    reads_point_rates_ = reads_point_rates_ || (is_rate(quantity.kind) && is_of_frame(quantity.kind));
+    if (is_of_mass(quantity.kind) && !of_mass_) of_mass_.emplace(robot);
     entry += block.size;
     blocks_.push_back(std::move(block));
   }
@@ -44,7 +38,7 @@ TermEvaluation::TermEvaluation(const RobotModel& robot, const TermUse& use, cons
   y_.setZero(entry);
   value_.resize(rows);
   f_y_.resize(rows, entry);
-  f_yy_.resize(entry, entry);
+  f_yy_.setZero(entry, entry);
 }
 
 TermEvaluation::Block TermEvaluation::block_of(const RobotModel& robot, const Quantity& quantity,
@@ -53,7 +47,6 @@ TermEvaluation::Block TermEvaluation::block_of(const RobotModel& robot, const Qu
               .entry = 0,
               .size = size_of(quantity.kind, robot),
               .points = {},
-              .weights = {},
               .point_row = 0,
               .force_row = -1,
               .variables = {},
@@ -70,12 +63,6 @@ TermEvaluation::Block TermEvaluation::block_of(const RobotModel& robot, const Qu
   } else if (quantity.kind == Kind::force) {
     const auto found = std::ranges::find(contacts, robot.contact_index(quantity.name));
     if (found != contacts.end()) block.force_row = 3 * (found - contacts.begin());
-  } else if (is_of_points(quantity.kind)) {
-    const std::vector<RigidBody> bodies = body_tree(robot).bodies;
-    for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
-      block.points.push_back({.body = body, .in_body = bodies[body].center});
-      block.weights.push_back(bodies[body].mass / robot.mass());
-    }
   }
   return block;
 }
@@ -95,12 +82,12 @@ void TermEvaluation::lay_out(const RigidBodyTerms& kinematics, Index num_variabl
       for (Index i = 0; i < nu; ++i) block.variables.push_back(first + i);
     } else if (block.kind == Kind::force) {
       for (Index i = 0; block.force_row >= 0 && i < num_variables; ++i) block.variables.push_back(i);
-    } else {
+    } else if (is_of_mass(block.kind)) {
+      for (Index i = 0; i < (is_rate(block.kind) ? 2 * nv : nv); ++i) block.variables.push_back(i);
+    } else if (is_of_frame(block.kind)) {
       const std::vector<int>& chain = chains_.back();  // of one body
-      if (block.weights.empty()) block.variables.assign(chain.begin(), chain.end());
-      for (Index i = 0; !block.weights.empty() && i < nv; ++i) block.variables.push_back(i);
-      const Index count = std::ssize(block.variables);
-      for (Index i = 0; is_rate(block.kind) && i < count; ++i) block.variables.push_back(nv + block.variables[i]);
+      block.variables.assign(chain.begin(), chain.end());
+      for (Index i = 0; is_rate(block.kind) && i < std::ssize(chain); ++i) block.variables.push_back(nv + chain[i]);
     }
     if (!block.is_identity()) block.slopes.setZero(block.size, std::ssize(block.variables));
     for (const Index variable : block.variables) {
@@ -127,23 +114,25 @@ void TermEvaluation::read_entries(const NodeReading& at, const Block& block) {
     entries = of_all.tail(block.size);
   } else if (block.kind == Kind::force) {
     if (block.force_row >= 0) entries = at.forces.segment<3>(block.force_row);
+  } else if (block.kind == Kind::time) {
+    entries(0) = at.time;
+  } else if (block.kind == Kind::center_of_mass) {
+    entries = of_mass_->com();
+  } else if (block.kind == Kind::center_of_mass_velocity) {
+    entries = of_mass_->momentum().head<3>() / mass_;
+  } else if (block.kind == Kind::angular_momentum) {
+    entries = of_mass_->momentum().tail<3>();
   } else {
     const VectorXd& of_points = is_rate(block.kind) ? kinematics_.acceleration() : kinematics_.positions();
-    if (block.weights.empty()) {
-      entries = of_points.segment(block.point_row, block.size);
-      return;
-    }
-    entries.setZero();
-    for (Index i = 0; i < std::ssize(block.weights); ++i) {
-      entries += block.weights[i] * of_points.segment<3>(block.point_row + 3 * i);
-    }
+    entries = of_points.segment(block.point_row, block.size);
   }
 }
 
 void TermEvaluation::evaluate(const NodeReading& at) {
   if (num_variables_ == 0) lay_out(at.kinematics, 3 * at_rest_.size() + at.q.size() - 7);
   kinematics_.set_configuration(at.kinematics);
-  if (reads_rates_) kinematics_.set_motion(at_rest_, at.v);  // the acceleration of a = v at rest is J v
+  if (reads_point_rates_) kinematics_.set_motion(at_rest_, at.v);  // the acceleration of a = v at rest is J v
+  if (of_mass_) of_mass_->update(at.q, at.v);
   for (const Block& block : blocks_) read_entries(at, block);
   value_.setZero();
   term_->value(y_, value_);
@@ -156,27 +145,28 @@ void TermEvaluation::read_slopes(const MatrixXd& forces_dx, Block& block) const 
     if (block.force_row >= 0) block.slopes = forces_dx.middleRows<3>(block.force_row);
     return;
   }
-  const bool is_rate_of_points = is_rate(block.kind), is_sum = !block.weights.empty();
-  const MatrixXd& by_q = is_rate_of_points ? rate_dq_ : kinematics_.positions_dq();
-  const Index in_v = std::ssize(block.variables) / 2;  // where the columns of v begin
-  if (is_sum) block.slopes.setZero();
-  for (Index i = 0; i < std::ssize(block.points); ++i) {
-    const Index row = block.point_row + 3 * i, to = is_sum ? 0 : 3 * i;
-    const double weight = is_sum ? block.weights[i] : 1.0;
-    const std::vector<int>& chain = chains_[block.point_row / 3 + i];
-    for (Index k = 0; k < std::ssize(chain); ++k) {
-      const Index dof = chain[k], column = is_sum ? dof : k;
-      const auto add = [&](Index at, const MatrixXd& of_points) {
-        auto slope = block.slopes.block<3, 1>(to, at);
-        if (is_sum) {
-          slope += weight * of_points.block<3, 1>(row, dof);
-        } else {
-          slope = of_points.block<3, 1>(row, dof);
-        }
-      };
-      add(column, by_q);
-      if (is_rate_of_points) add(in_v + column, kinematics_.jacobian());
-    }
+  if (is_of_mass(block.kind)) return read_slopes_of_mass(block);
+  if (!is_of_frame(block.kind)) return;
+  const MatrixXd& by_q = is_rate(block.kind) ? rate_dq_ : kinematics_.positions_dq();
+  const std::vector<int>& chain = chains_[block.point_row / 3];
+  const Index in_v = std::ssize(chain);  // where the columns of v begin
+  for (Index k = 0; k < in_v; ++k) {
+    block.slopes.col(k) = by_q.col(chain[k]).segment(block.point_row, block.size);
+    if (!is_rate(block.kind)) continue;
+    block.slopes.col(in_v + k) = kinematics_.jacobian().col(chain[k]).segment(block.point_row, block.size);
+  }
+}
+
+void TermEvaluation::read_slopes_of_mass(Block& block) const {
+  const Index nv = at_rest_.size();
+  if (block.kind == Kind::center_of_mass) {
+    block.slopes = of_mass_->com_dq();
+  } else if (block.kind == Kind::center_of_mass_velocity) {
+    block.slopes.leftCols(nv) = of_mass_->momentum_dq().topRows<3>() / mass_;
+    block.slopes.rightCols(nv) = of_mass_->momentum_dv().topRows<3>() / mass_;
+  } else {
+    block.slopes.leftCols(nv) = of_mass_->momentum_dq().bottomRows<3>();
+    block.slopes.rightCols(nv) = of_mass_->momentum_dv().bottomRows<3>();
   }
 }
 
@@ -207,13 +197,23 @@ void TermEvaluation::differentiate(const MatrixXd& forces_dx) {
     product_.resize(last_, last_);
     dx_.resize(dx_.rows(), last_);
   }
-  if (reads_rates_) kinematics_.acceleration_dq(rate_dq_);
+  if (reads_point_rates_) kinematics_.acceleration_dq(rate_dq_);
   for (Block& block : blocks_) read_slopes(forces_dx, block);
   f_y_.setZero();
   term_->jacobian(y_, f_y_);
+  clear_open_contacts();
   check_finite(f_y_.allFinite(), "its Jacobian");
   dx_.setZero();
   for (const Block& block : blocks_) add_slopes(block);
+}
+
+void TermEvaluation::clear_open_contacts() {
+  for (const Block& block : blocks_) {
+    if (block.kind != Kind::force || block.force_row >= 0) continue;
+    f_y_.middleCols(block.entry, block.size).setZero();
+    f_yy_.middleCols(block.entry, block.size).setZero();
+    f_yy_.middleRows(block.entry, block.size).setZero();
+  }
 }
 
 // Y_aᵀ F_ab Y_b and its transpose, of the second derivatives F in y.
@@ -245,30 +245,45 @@ void TermEvaluation::add_bending(const Block& a, const Block& b, Eigen::Ref<Matr
 void TermEvaluation::add_hessian(const VectorXd& multipliers, Eigen::Ref<MatrixXd> hessian) {
   f_yy_.setZero();
   term_->hessian(y_, multipliers, f_yy_);
+  clear_open_contacts();
   check_finite(f_yy_.allFinite(), "its Hessian");
   for (std::size_t a = 0; a < blocks_.size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) add_bending(blocks_[a], blocks_[b], hessian);
   }
-  if (kinematics_.rows() == 0) return;
   pull_.noalias() = f_y_.transpose() * multipliers;
+  if (of_mass_) add_hessian_of_mass(hessian);
+  if (kinematics_.rows() == 0) return;
   on_position_.setZero(kinematics_.rows());
   on_rate_.setZero(kinematics_.rows());
   for (const Block& block : blocks_) {
     if (block.points.empty()) continue;
     VectorXd& on_points = is_rate(block.kind) ? on_rate_ : on_position_;
-    if (block.weights.empty()) on_points.segment(block.point_row, block.size) = pull_.segment(block.entry, block.size);
-    for (Index i = 0; i < std::ssize(block.weights); ++i) {
-      on_points.segment<3>(block.point_row + 3 * i) = block.weights[i] * pull_.segment<3>(block.entry);
-    }
+    on_points.segment(block.point_row, block.size) = pull_.segment(block.entry, block.size);
   }
   const Index nv = at_rest_.size();
   kinematics_.add_position_hessian(on_position_, 1.0, hessian.topLeftCorner(nv, nv));
-  if (!reads_rates_) return;
+  if (!reads_point_rates_) return;
   kinematics_.add_acceleration_hessian_qq(on_rate_, hessian.topLeftCorner(nv, nv));
   mixed_.setZero();  // the derivative of Jᵀ pull in q
   kinematics_.add_force_derivative(on_rate_, mixed_);
   hessian.block(nv, 0, nv, nv) += mixed_;
   hessian.block(0, nv, nv, nv) += mixed_.transpose();
+}
+
+void TermEvaluation::add_hessian_of_mass(Eigen::Ref<MatrixXd> hessian) {
+  const Index nv = at_rest_.size();
+  Eigen::Vector3d on_center = Eigen::Vector3d::Zero();
+  SpatialVector on_momentum = SpatialVector::Zero();
+  for (const Block& block : blocks_) {
+    const auto pull = pull_.segment(block.entry, block.size);
+    if (block.kind == Kind::center_of_mass) on_center += pull;
+    if (block.kind == Kind::center_of_mass_velocity) on_momentum.head<3>() += pull / mass_;
+    if (block.kind == Kind::angular_momentum) on_momentum.tail<3>() += pull;
+  }
+  mixed_.setZero();
+  of_mass_->add_hessian(on_center, on_momentum, hessian.topLeftCorner(nv, nv), mixed_);
+  hessian.block(0, nv, nv, nv) += mixed_;
+  hessian.block(nv, 0, nv, nv) += mixed_.transpose();
 }
 
 void TermEvaluation::add_force_pull(const VectorXd& multipliers, VectorXd& pull) {

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "prowl/dynamics/centroidal_kinematics.hpp"
 #include "prowl/dynamics/point_kinematics.hpp"
 #include "prowl/motion/term_use.hpp"
 
@@ -15,6 +17,7 @@ struct NodeReading {
   const RigidBodyTerms& kinematics;  ///< at the configuration q
   const Eigen::VectorXd &q, &v, &tau;
   const Eigen::VectorXd& forces;  ///< 3 per contact that the evaluation was made for, world frame [N]
+  double time;                    ///< since the start of the motion [s]
 };
 
 /// A term at one node: value and derivatives in the variables x = (tangent of q | v | a | tau | others) of the node, by
@@ -49,8 +52,7 @@ class TermEvaluation {
   struct Block {
     Quantity::Kind kind;
     Eigen::Index entry, size;             ///< rows of Y
-    std::vector<BodyPoint> points;        ///< of which it is a weighted sum, three rows each
-    std::vector<double> weights;          ///< of the points; empty: each point has rows of its own
+    std::vector<BodyPoint> points;        ///< of a frame, three rows each
     Eigen::Index point_row;               ///< of its first point in kinematics_
     Eigen::Index force_row;               ///< of a force; -1 if it is not known
     std::vector<Eigen::Index> variables;  ///< columns of `slopes`; set by lay_out()
@@ -63,18 +65,24 @@ class TermEvaluation {
   void lay_out(const RigidBodyTerms& kinematics, Eigen::Index num_variables);
   void read_entries(const NodeReading& at, const Block& block);
   void read_slopes(const Eigen::MatrixXd& forces_dx, Block& block) const;
+  void read_slopes_of_mass(Block& block) const;
+  void add_hessian_of_mass(Eigen::Ref<Eigen::MatrixXd> hessian);
   void add_slopes(const Block& block);
+  /// Forgets derivatives in the entries of contacts without force, which are constant: |f| has none there.
+  void clear_open_contacts();
   void add_bending(const Block& a, const Block& b, Eigen::Ref<Eigen::MatrixXd> hessian);
   void check_finite(bool is_finite, const char* what) const;
 
   std::string name_;
   std::shared_ptr<const Term> term_;
-  bool reads_rates_;
+  double mass_;  ///< of the robot [kg]
+  bool reads_point_rates_ = false;
   std::vector<Block> blocks_;
   std::vector<std::vector<int>> chains_;  ///< of the points in kinematics_
   Eigen::Index first_ = 0, last_ = 0;     ///< variables: the first, and the one after the last
   Eigen::Index num_variables_ = 0;        ///< for which the blocks are laid out
   PointKinematics kinematics_;
+  std::optional<CentroidalKinematics> of_mass_;  ///< if the term reads such a quantity
   // Work space.
   Eigen::VectorXd at_rest_, y_, value_, pull_, on_position_, on_rate_;
   Eigen::MatrixXd rate_dq_, f_y_, f_yy_, bent_, product_, dx_, mixed_;

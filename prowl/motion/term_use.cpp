@@ -36,6 +36,7 @@ double natural_size(const RobotModel& robot, const Term& term) {
   if (unit == "m/s") return robot.size() * rate;
   if (unit == "N") return robot.weight();
   if (unit == "N m") return robot.weight() * robot.size();
+  if (unit == "N m s") return robot.mass() * robot.size() * robot.size() * rate;
   return unit == "rad/s" ? rate : 1.0;
 }
 

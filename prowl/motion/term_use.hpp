@@ -38,7 +38,8 @@ bool reads_rates(const Term& term);
 bool reads_loads(const Term& term);
 
 /// Scale of a violation: Term::size(), or by the unit "m" the robot's size, "rad" one,
-/// "m/s" and "rad/s" those of a pendulum of its size, "N" its weight, "N m" its weight times its size, else one.
+/// "m/s", "rad/s" and "N m s" those of a pendulum of its size and mass, "N" its weight, "N m" its weight times its
+/// size, else one.
 double natural_size(const RobotModel& robot, const Term& term);
 
 /// Tolerance of the certificate: by the unit that of goals ("m", "rad", "m/s", "rad/s") or of contact forces ("N"),

@@ -183,6 +183,12 @@ const std::vector<TermQuantity>& term_quantities() {
        },
        {},
        {}},
+      {"angular_momentum_Nms",
+       [](const Value& value, const Robot&) {
+         return read_entries(value.as_list(3), [](const Modifiers&) { return angular_momentum(); });
+       },
+       {},
+       {}},
       {"joints",
        [](const Value& value, const Robot& robot) { return read_joint_values(value, robot, &joint_positions); },
        {},
@@ -297,19 +303,22 @@ void make_cost(const TomlTable& table, TermUse& use) {
 std::shared_ptr<const Term> OwnTermReader::read(const TomlTable& table) const {
   const TomlValue own = table.need("own");
   const std::string name = own.as_text();
-  OwnTermMap terms = own_terms_.known;
-  if (const auto library = table.find("library")) {
+  const auto library_key = table.find("library");
+  OwnTermMap terms;
+  if (!library_key) terms = own_terms_.known;
+  if (const auto& library = library_key) {
     if (!own_terms_.allows_libraries) {
       library->fail("a library is not loaded by default; need --allow-libraries, in Python allow_libraries=True");
     }
     try {
-      terms.merge(own_terms_of(std::filesystem::absolute(folder_ / library->as_text())));
+      terms = own_terms_of(std::filesystem::absolute(folder_ / library->as_text()));
     } catch (const InputError& error) {
       library->fail(error.what());
     }
   }
   const auto found = terms.find(name);
-  if (found != terms.end() && found->second) return found->second;
+  if (found != terms.end() && !found->second) own.fail(fmt::format("the library has no function for '{}'", name));
+  if (found != terms.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [other, term] : terms) known.push_back(other);
   if (known.empty()) {

@@ -24,7 +24,7 @@ class AutodiffTerm : public Term {
   }
 
   void value(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> f) const override {
-    Eigen::Matrix<double, Rows, 1> result;
+    Eigen::Matrix<double, Rows, 1> result = Eigen::Matrix<double, Rows, 1>::Zero();
     function_(entries(y), result);
     f = result;
   }
@@ -34,13 +34,16 @@ class AutodiffTerm : public Term {
     Eigen::Matrix<Scalar, Entries, 1> variables;
     for (int i = 0; i < Entries; ++i) variables(i) = Scalar(at(i), Entries, i);
     Eigen::Matrix<Scalar, Rows, 1> result;
+    for (int row = 0; row < Rows; ++row) result(row) = 0.0 * variables(0);
     function_(variables, result);
     for (int row = 0; row < Rows; ++row) f_y.row(row) = result(row).derivatives().transpose();
   }
   void hessian(const Eigen::VectorXd& y, const Eigen::VectorXd& multipliers,
                Eigen::Ref<Eigen::MatrixXd> f_yy) const override {
+    const auto variables = second_order_variables<Entries>(entries(y));
     Eigen::Matrix<SecondOrder<Entries>, Rows, 1> result;
-    function_(second_order_variables<Entries>(entries(y)), result);
+    for (int row = 0; row < Rows; ++row) result(row) = 0.0 * variables(0);
+    function_(variables, result);
     for (int row = 0; row < Rows; ++row) {
       for (int i = 0; i < Entries; ++i) {
         f_yy.row(i) += multipliers(row) * result(row).derivatives()(i).derivatives().transpose();
@@ -59,8 +62,8 @@ class AutodiffTerm : public Term {
 };
 
 /// A term of one's own from its value alone: its derivatives are automatic. `Entries`: length of y; `Rows`: of f.
-/// function(const Eigen::Matrix<S, Entries, 1>& y, Eigen::Matrix<S, Rows, 1>& f) sets f for any scalar S: double, or
-/// those of autodiff_scalar.hpp.
+/// function(const Eigen::Matrix<S, Entries, 1>& y, Eigen::Matrix<S, Rows, 1>& f) sets f, zero before, for any scalar S:
+/// double, or those of autodiff_scalar.hpp.
 ///
 ///   own_term<3, 1>({{Quantity::Kind::position, "lf_foot"}}, {"distance"}, "m",
 ///                  [center](const auto& y, auto& f) { f(0) = (y - center).norm(); });

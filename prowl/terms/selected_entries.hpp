@@ -50,6 +50,11 @@ inline std::shared_ptr<const Term> center_of_mass_velocity() {
   return world_vector({.kind = Quantity::Kind::center_of_mass_velocity}, "m/s");
 }
 
+/// Angular momentum of the robot about its centre of mass [N m s], world axes.
+inline std::shared_ptr<const Term> angular_momentum() {
+  return world_vector({.kind = Quantity::Kind::angular_momentum}, "N m s");
+}
+
 /// Force of the ground on a contact [N], world axes; zero while the contact is open.
 inline std::shared_ptr<const Term> contact_force(const std::string& contact) {
   return world_vector({.kind = Quantity::Kind::force, .name = contact}, "N");

@@ -26,7 +26,7 @@ class Term {
   double size() const { return size_; }
   int num_rows() const { return static_cast<int>(rows_.size()); }
 
-  /// One entry for each row.
+  /// One entry for each row; all are zero before.
   virtual void value(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> f) const = 0;
   /// One row for each entry of f, one column for each of y; all entries are zero before.
   virtual void jacobian(const Eigen::VectorXd& y, Eigen::Ref<Eigen::MatrixXd> f_y) const = 0;

@@ -23,10 +23,12 @@ const char* kind_name(Kind kind) {
     case Kind::orientation_rate: return "rate of the orientation";
     case Kind::center_of_mass: return "centre of mass";
     case Kind::center_of_mass_velocity: return "velocity of the centre of mass";
+    case Kind::angular_momentum: return "angular momentum";
     case Kind::joints: return "position";
     case Kind::joint_rates: return "rate";
     case Kind::torques: return "torque";
     case Kind::force: return "force";
+    case Kind::time: return "time";
   }
   return "";
 }
@@ -54,7 +56,8 @@ MatrixXd differences(const VectorXd& y, Index rows, const Function& function) {
 
 std::string first_wrong(const RobotModel& robot, const Term& term, const Compared& compared) {
   constexpr double kRelative = 1e-4;
-  const double scale = kRelative * kRelative * compared.by_differences.cwiseAbs().maxCoeff();
+  const auto& differences = compared.by_differences.array();
+  const double scale = kRelative * kRelative * differences.isFinite().select(differences.abs(), 0.0).maxCoeff();
   for (Index row = 0; row < compared.exact.rows(); ++row) {
     for (Index column = 0; column < compared.exact.cols(); ++column) {
       const double exact = compared.exact(row, column), by_differences = compared.by_differences(row, column);
@@ -82,6 +85,7 @@ std::string entry_name(const RobotModel& robot, const Term& term, Index entry) {
     if (size == 9) {
       return fmt::format("{} of '{}', axis {}, {}", kind, quantity.name, kAxes[entry / 3], kAxes[entry % 3]);
     }
+    if (size == 1) return kind;
     if (quantity.name.empty()) return fmt::format("{}, {}", kind, kAxes[entry]);
     return fmt::format("{} of '{}', {}", kind, quantity.name, kAxes[entry]);
   }

@@ -97,7 +97,7 @@ CostTerm cost_of(const MotionProblem& problem, const TermUse& use, const Traject
     holds.push_back(use.holds_at(nodes[k].phase, (nodes[k].time - start) / duration));
     if (!holds[k]) continue;
     kinematics.update_kinematics(nodes[k].q);
-    term.evaluate({kinematics, nodes[k].q, nodes[k].v, nodes[k].tau, nodes[k].force});
+    term.evaluate({kinematics, nodes[k].q, nodes[k].v, nodes[k].tau, nodes[k].force, nodes[k].time});
     const VectorXd error = term.value() - use.reference;
     result.rate(static_cast<Eigen::Index>(k)) = 0.5 * error.dot(use.weight * error);
   }

@@ -30,7 +30,8 @@ def own_term(
     function: f(y); y has the entries of all that is read, one after the other. reads: pairs of a kind and the name of
     a link (or "base") or contact, or kinds alone, of quantity_names(): "position" (3), "velocity" (3), "orientation"
     and "orientation_rate" (9: the axes x, y, z of the link), of links; "force" (3), of a contact; "center_of_mass" (3)
-    and "center_of_mass_velocity" (3); "joints", "joint_rates" and "torques", one for each joint. World frame, SI.
+    and "center_of_mass_velocity" (3); "angular_momentum" (3) about it; "joints",
+    "joint_rates" and "torques", one for each joint; "time" (1), with fixed durations. World frame, SI.
     rows: names of the entries of f; default: "0", "1", ... unit: of all entries, "-" if none. size: scale of f, of which
     the certificate tolerates a thousandth; default: by the unit.
 
@@ -76,7 +77,13 @@ def _buffered(function: Any) -> Evaluator:
     for i, argument in enumerate(arguments):
         buffer.set_arg(i, memoryview(argument))
     buffer.set_res(0, memoryview(result.reshape(-1, order="F")))
-    return (lambda: (buffer, call())), arguments, result  # the buffer lives as long as the call
+
+    def run() -> None:
+        call()
+        if buffer.ret() != 0:  # the result is not what it should be
+            result.fill(np.nan)
+
+    return run, arguments, result
 
 
 def _of_functions(

@@ -77,22 +77,25 @@ class PythonTerm : public Term {
   /// At the end of the interpreter. Its collector does not see that a term refers to its functions, which refer to all
   /// names of their module, perhaps to the term.
   static void release_all() {
-    for (PythonTerm* term : all()) term->functions_.reset();
+    for (PythonTerm* term : all()) {
+      const std::unique_lock<std::recursive_mutex> own(term->mutex_, std::try_to_lock);
+      if (own) term->functions_.reset();  // otherwise a thread that outlives the interpreter is inside
+    }
   }
 
   void value(const VectorXd& y, Eigen::Ref<VectorXd> f) const override {
     const BothLocks lock(mutex_);
-    call(functions_->value, {&y});
+    call(functions().value, {&y});
     f = Eigen::Map<const VectorXd>(functions_->value.result.data(), f.size());
   }
   void jacobian(const VectorXd& y, Eigen::Ref<MatrixXd> f_y) const override {
     const BothLocks lock(mutex_);
-    call(functions_->jacobian, {&y});
+    call(functions().jacobian, {&y});
     f_y = Eigen::Map<const MatrixXd>(functions_->jacobian.result.data(), f_y.rows(), f_y.cols());
   }
   void hessian(const VectorXd& y, const VectorXd& multipliers, Eigen::Ref<MatrixXd> f_yy) const override {
     const BothLocks lock(mutex_);
-    call(functions_->hessian, {&y, &multipliers});
+    call(functions().hessian, {&y, &multipliers});
     f_yy = Eigen::Map<const MatrixXd>(functions_->hessian.result.data(), f_yy.rows(), f_yy.cols());
   }
 
@@ -100,6 +103,11 @@ class PythonTerm : public Term {
   struct Functions {
     Evaluator value, jacobian, hessian;
   };
+
+  const Functions& functions() const {
+    if (!functions_) throw Error("own_term: Python has ended");
+    return *functions_;
+  }
 
   /// Guarded by the lock of the interpreter.
   static std::set<PythonTerm*>& all() {

@@ -5,6 +5,7 @@
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/leg_kinematics.hpp"
 #include "tests/support/random_states.hpp"
+#include "tests/support/random_vector.hpp"
 #include "tests/support/robots.hpp"
 
 namespace prowl {
@@ -38,6 +39,29 @@ TEST(CentreOfMass, MovesAtItsVelocity) {
     const Vector3d ahead = centre_of_mass(robot, integrate(q, step * tangent), v).position;
     const Vector3d behind = centre_of_mass(robot, integrate(q, -step * tangent), v).position;
     EXPECT_LT((centre_of_mass(robot, q, v).velocity - (ahead - behind) / (2.0 * step)).norm(), 1e-6);
+  }
+}
+
+/// Between points of any two bodies; of two neighbours it is nearly reached.
+TEST(LargestDistance, HoldsInAnyPosture) {
+  for (const RobotModel& robot : robots()) {
+    test::RandomStates states(robot, 8);
+    std::mt19937 rng(9);
+    RigidBodyTerms terms(robot);
+    const int bodies = robot.nu() + 1;
+    std::uniform_int_distribution<int> any(0, bodies - 1);
+    for (int i = 0; i < 300; ++i) {
+      terms.update_kinematics(states.configuration());
+      const BodyPoint a{.body = any(rng), .in_body = test::random_vector(rng, 3, 0.1)},
+          b{.body = any(rng), .in_body = test::random_vector(rng, 3, 0.1)};
+      const auto place = [&](const BodyPoint& point) -> Vector3d {
+        return terms.body_rotation(point.body) * point.in_body + terms.body_position(point.body);
+      };
+      const double distance = (place(a) - place(b)).norm(), bound = largest_distance(robot, a, b);
+      EXPECT_LE(distance, bound + 1e-9) << robot.name();
+      EXPECT_DOUBLE_EQ(bound, largest_distance(robot, b, a));
+      if (a.body == b.body) EXPECT_NEAR(distance, bound, 1e-9);
+    }
   }
 }
 

@@ -1,4 +1,5 @@
 prowl_test(dynamics/inverse_dynamics_hessian prowl::dynamics pinocchio::pinocchio_default)
+prowl_test(dynamics/centroidal_kinematics prowl::dynamics pinocchio::pinocchio_default)
 prowl_test(dynamics/projected_residual prowl::dynamics)
 prowl_test(dynamics/static_equilibrium prowl::dynamics pinocchio::pinocchio_default)
 prowl_test(dynamics/inverse_kinematics prowl::dynamics)

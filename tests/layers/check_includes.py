@@ -41,6 +41,7 @@ ALLOWED = {
         "prowl/linear_algebra",
         "prowl/model",
         "prowl/dynamics",
+        "prowl/terms",
         "prowl/motion",
         "prowl/trajectory",
         "prowl/nlp",

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/terms/own_term.hpp"
 #include "tests/support/robots.hpp"
 #include "tests/support/standing_problem.hpp"
 #include "tests/support/terms_problem.hpp"
@@ -146,6 +147,22 @@ TEST(CheckTerms, NamesTwoThatContradictEachOther) {
   EXPECT_NE(said(0.75, {0, 0.6}, {0, 0.6}), "");
 }
 
+TEST(CheckTerms, RefusesTheTimeOfFreeDurations) {
+  const auto drift = own_term<4, 1>({{.name = "base"}, {Quantity::Kind::time, ""}}, {"x"}, "m",
+                                    [](const auto& y, auto& f) { f(0) = y(0) - 0.1 * y(3); });
+  MotionProblem problem = test::standing_problem(test::hyq());
+  problem.terms = {whole(test::limit_on("drift", drift, -1.0, 1.0))};
+  EXPECT_NO_THROW(check_terms(problem));
+  problem.phases[0].duration = {0.5, 1.0};
+  try {
+    check_terms(problem);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "terms[0].term: reads the time, which the free duration of phase 'stand' changes; need fixed durations");
+  }
+}
+
 TEST(CheckTerms, RefusesTwoOfOneName) {
   MotionProblem problem = test::standing_problem(test::hyq());
   problem.terms.assign(2, whole(test::cost_on("centre", center_of_mass(), 1.0, 0.0)));
@@ -174,6 +191,77 @@ TEST(CheckTerms, RefusesWhatDiffersFromCycleToCycle) {
             "terms[0]: x changes by 0.3 m from cycle to cycle; need a quantity that repeats itself");
   EXPECT_EQ(said(center_of_mass(), 2), "");
   EXPECT_EQ(said(frame_position("lf_foot", "base"), 0), "");
+}
+
+/// Forces turn with the robot from cycle to cycle; torques do not.
+TEST(CheckTerms, RefusesForcesThatTurnWithTheCycle) {
+  const auto said = [](const std::shared_ptr<const Term>& term, double turn) {
+    MotionProblem problem = test::standing_problem(test::hyq());
+    problem.phases.assign(2, problem.phases.front());
+    problem.cycle = Cycle{.count = 2, .turn = turn};
+    problem.terms = {
+        test::over(test::limit_on("mine", term, -1e4, 1e4), PhaseFraction::start_of(0), PhaseFraction::end_of(1))};
+    try {
+      check_terms(problem);
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(said(contact_force("lf_foot"), 0.4), testing::HasSubstr("N from cycle to cycle"));
+  EXPECT_EQ(said(contact_force("lf_foot"), 0.0), "");
+  EXPECT_EQ(said(joint_torques(test::hyq(), {0, 1}), 0.4), "");
+}
+
+TEST(CheckTerms, RefusesAForceOfAnOpenContact) {
+  const auto said = [](double lower) {
+    MotionProblem problem = test::standing_problem(test::hyq());
+    problem.phases.push_back(problem.phases.front());
+    problem.phases[1].name = "swing";
+    problem.phases[1].contacts.erase(problem.phases[1].contacts.begin());
+    const std::string open = problem.robot.contacts()[problem.phases[0].contacts[0].contact].name;
+    problem.terms = {test::over(test::limit_on("push", contact_force(open), lower, 500.0), {1, 0.0}, {1, 1.0})};
+    try {
+      check_terms(problem);
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(said(50.0), testing::AllOf(testing::StartsWith("terms[0]: in phase 'swing' x is 0 N, as contact "),
+                                         testing::HasSubstr("is open, 50 beyond its bound")));
+  EXPECT_EQ(said(-50.0), "");
+}
+
+TEST(CheckTerms, RefusesASizeThatNoToleranceFits) {
+  for (const double size : {-1.0, static_cast<double>(INFINITY), std::nan("")}) {
+    const auto height =
+        own_term<3, 1>({{.name = "base"}}, {"z"}, "m", [](const auto& y, auto& f) { f(0) = y(2); }, size);
+    EXPECT_THAT(complaint(whole(test::limit_on("height", height, 0.0, 9.0))), testing::HasSubstr("a size of "));
+  }
+}
+
+/// A wrong Jacobian where the first states that are tried have none: the root of a force that pushes.
+class WrongRoot : public Term {
+ public:
+  explicit WrongRoot(const std::string& contact)
+      : Term({{.kind = Quantity::Kind::force, .name = contact}}, {"root"}, "-") {}
+  void value(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> f) const override { f(0) = std::sqrt(y(2)); }
+  void jacobian(const Eigen::VectorXd& y, Eigen::Ref<Eigen::MatrixXd> f_y) const override {
+    f_y(0, 2) = 1.0 / std::sqrt(y(2));
+  }
+  void hessian(const Eigen::VectorXd& y, const Eigen::VectorXd& multipliers,
+               Eigen::Ref<Eigen::MatrixXd> f_yy) const override {
+    f_yy(2, 2) = -0.25 * multipliers(0) * std::pow(y(2), -1.5);
+  }
+};
+
+TEST(CheckTerms, ComparesDerivativesWhereTheTermIsDefined) {
+  const RobotModel robot = test::hyq();
+  for (const ContactPoint& contact : robot.contacts()) {
+    EXPECT_THAT(complaint(whole(test::limit_on("root", std::make_shared<WrongRoot>(contact.name), 0.0, 99.0))),
+                testing::HasSubstr("the derivative of 'root' with respect to the force of '" + contact.name + "', z"));
+  }
 }
 
 TEST(CheckTerms, RefusesALimitThatAFixedStartBreaks) {

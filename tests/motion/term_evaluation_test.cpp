@@ -8,6 +8,7 @@
 #include "prowl/model/body_placements.hpp"
 #include "prowl/model/body_tree.hpp"
 #include "prowl/model/robot_frame.hpp"
+#include "prowl/terms/own_term.hpp"
 #include "prowl/terms/selected_entries.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
@@ -60,7 +61,7 @@ class Reader {
 
   TermEvaluation& at(const VectorXd& q, const VectorXd& v, const VectorXd& tau = {}, const VectorXd& forces = {}) {
     kinematics_.update_kinematics(q);
-    term_.evaluate({kinematics_, q, v, tau, forces});
+    term_.evaluate({kinematics_, q, v, tau, forces, 0.7});
     return term_;
   }
   TermEvaluation& at(const State& state) { return at(state.q, state.v, state.tau, state.forces()); }
@@ -212,6 +213,24 @@ TEST(TermEvaluation, NamesATermThatIsNotFinite) {
   } catch (const NumericalError& error) {
     EXPECT_EQ(std::string(error.what()), "term 'broken': its value is not finite");
   }
+}
+
+/// The size of a force has no derivative at zero, where an open contact stays.
+TEST(TermEvaluation, TakesTheSizeOfAForceThatIsNotThere) {
+  std::mt19937 rng(11);
+  const RobotModel robot = test::hyq();
+  const auto size = own_term<3, 1>({{Quantity::Kind::force, robot.contacts()[1].name}}, {"size"}, "N",
+                                   [](const auto& y, auto& f) { f(0) = y.norm(); });
+  const TermUse use = test::limit_on("size", size, 0.0, 500.0);
+  const DynamicsPoint at = test::random_point(robot, {}, rng);
+  const Index all = 3 * robot.nv() + robot.nu();
+  Reader reader(robot, use, {0});
+  TermEvaluation& term = reader.at(at.q, at.v, at.tau, Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(term.value()(0), 0.0);
+  term.differentiate(MatrixXd::Zero(3, all));
+  MatrixXd hessian = MatrixXd::Zero(all, all);
+  term.add_hessian(VectorXd::Ones(1), hessian);
+  EXPECT_TRUE(term.dx().isZero(0.0) && hessian.isZero(0.0));
 }
 
 TEST(RobotFrame, NamesTheNearestLink) {

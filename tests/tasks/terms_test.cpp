@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <pinocchio/algorithm/centroidal.hpp>
 
 #include "prowl/model/body_placements.hpp"
+#include "prowl/model/pinocchio_model.hpp"
 #include "prowl/model/robot_frame.hpp"
 #include "prowl/solvers/make_solver.hpp"
+#include "prowl/terms/own_term.hpp"
 #include "tests/support/solved_task.hpp"
 
 namespace prowl {
@@ -91,9 +94,54 @@ TEST(Terms, TheTrunkDoesNotTurnAtAll) {
   EXPECT_GE(tight.result.cost, loose.result.cost);
 }
 
+/// The trunk moves by 5 cm/s sideways in the second half: a path over time, which the certificate checks as well.
+TEST(Terms, TheTrunkFollowsAPathOverTime) {
+  Task task = with_terms("hyq/crouch", "");
+  const double begin = 1.0, speed = 0.05;
+  const auto path = own_term<4, 1>({{.name = "trunk"}, {Quantity::Kind::time, ""}}, {"y"}, "m",
+                                   [=](const auto& y, auto& f) { f(0) = y(1) - speed * (y(3) - begin); });
+  const double duration = task.problem.phases[0].duration.max;
+  TermUse use{.name = "path", .term = path};
+  use.from = {0, 0.6};
+  use.to = {0, 0.9};
+  use.lower = use.upper = VectorXd::Zero(1);
+  task.problem.terms.push_back(use);
+  const Plan plan = planned(task);
+  ASSERT_TRUE(is_good(plan)) << plan.result.message;
+  Placements placements(task.problem.robot);
+  for (double share = 0.6; share < 0.901; share += 0.01) {
+    const double t = share * duration;
+    const double y = placements.frame("trunk", sample(plan.trajectory, t).q).translation().y();
+    EXPECT_NEAR(y, speed * (t - begin), 1e-3);
+  }
+}
+
+TEST(Terms, AngularMomentumStaysInItsBand) {
+  const Task task = with_terms("hyq/step", R"(
+[[term]]
+name = "calm"
+angular_momentum_Nms = [[-0.2, 0.2], [-0.2, 0.2], [-0.2, 0.2]]
+)");
+  const Plan plan = planned(task), free = planned(with_terms("hyq/step", ""));
+  ASSERT_TRUE(is_good(plan)) << plan.result.message;
+  const pinocchio::Model& model = task.problem.robot.pinocchio().model;
+  const auto largest = [&](const Trajectory& motion) {
+    pinocchio::Data data(model);
+    double most = 0.0;
+    for (const TrajectoryPoint& node : motion.nodes) {
+      pinocchio::computeCentroidalMomentum(model, data, node.q, node.v);
+      most = std::max(most, data.hg.angular().cwiseAbs().maxCoeff());
+    }
+    return most;
+  };
+  EXPECT_LT(largest(plan.trajectory), 0.2 + 1e-3);
+  EXPECT_GT(largest(free.trajectory), 0.3) << "it would not turn more anyway, so the test checks nothing";
+}
+
 TEST(Terms, ACostPullsInProportionToItsWeight) {
   double last = 0.0;
-  Placements placements(with_terms("hyq/crouch", "").problem.robot);
+  const Task free = with_terms("hyq/crouch", "");
+  Placements placements(free.problem.robot);
   for (const double weight : {1e3, 10.0, 0.1}) {
     const Task task = with_terms("hyq/crouch", fmt::format("[[term]]\nframe = \"trunk\"\nposition_m = [0.03, \"free\", "
                                                            "\"free\"]\nweight = {}\ntime_s = 0.5\n",
@@ -128,6 +176,21 @@ phase = "swing"
   ASSERT_EQ(task.problem.robot.contact_index("lh_foot"), 1);
   EXPECT_LT(largest(plan.trajectory), 250.0 + 1e-2);
   EXPECT_GT(largest(free.trajectory), 260.0) << "the foot would not carry more anyway, so the test checks nothing";
+}
+
+/// A foot that lands carries something at once: a span that begins there leaves the phase before alone, however it is
+/// written.
+TEST(Terms, ASpanBeginsWithItsPhase) {
+  const std::string limit = "contact = \"lf_foot\"\nforce_N = [\"free\", \"free\", [150, \"free\"]]\n";
+  const Task by_time = with_terms("hyq/rear", "[[term]]\n" + limit + "time_s = [1.4, 2.2]\n");
+  const Task by_phase = with_terms("hyq/rear", "[[term]]\n" + limit + "phase = \"settle\"\n");
+  Task by_hand = by_phase;
+  by_hand.problem.terms[0].from = PhaseFraction::end_of(1);
+  const Plan plan = planned(by_phase);
+  ASSERT_TRUE(is_good(plan)) << plan.result.message;
+  EXPECT_GT(plan.result.cost, planned(with_terms("hyq/rear", "")).result.cost) << "the limit changes nothing";
+  EXPECT_EQ(planned(by_time).result.cost, plan.result.cost);
+  EXPECT_EQ(planned(by_hand).result.cost, plan.result.cost);
 }
 
 TEST(Terms, APeakShrinksWithItsWeight) {

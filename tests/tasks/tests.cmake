@@ -1,6 +1,6 @@
 prowl_test(tasks/free_duration prowl::prowl prowl::ipopt)
 prowl_test(tasks/free_start prowl::prowl)
-prowl_test(tasks/terms prowl::prowl fmt::fmt)
+prowl_test(tasks/terms prowl::prowl fmt::fmt pinocchio::pinocchio_default)
 prowl_test(tasks/cycles prowl::prowl fmt::fmt)
 prowl_test(tasks/solvers_agree prowl::prowl prowl::ipopt)
 prowl_test(tasks/formulations_agree prowl::formulations prowl::prowl prowl::ipopt)

@@ -50,6 +50,7 @@ std::vector<std::shared_ptr<const Term>> all_terms(const RobotModel& robot, cons
           frame_pointing_at("hand", {1.0, 0.5, 0.2}, {4.0, 1.0, 2.0}),
           center_of_mass(),
           center_of_mass_velocity(),
+          angular_momentum(),
           joint_positions(robot, {3, 1}),
           joint_rates(robot, {0}),
           joint_torques(robot, {2, 0}),

@@ -419,6 +419,11 @@ void add_term(FileKeys& keys) {
             .unit = "m/s",
             .meaning = "its velocity, world axes",
             .formula = "dc/dt"});
+  term.add({.name = "angular_momentum_Nms",
+            .form = kOneSidedBounds3,
+            .unit = "N m s",
+            .meaning = "of the robot about its centre of mass, world axes",
+            .formula = "Σ I_i ω_i + (c_i - c) × m_i dc_i/dt"});
   term.add(
       {.name = "joints", .form = kOneSidedJointBounds, .unit = "rad", .meaning = "joint positions", .formula = "q_i"});
   term.add({.name = "joint_velocity_radps",

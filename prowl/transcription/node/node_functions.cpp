@@ -73,6 +73,9 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
       term_costs_(discrete, phase),
       dynamics_(discrete.problem.robot, contact_indices(discrete.problem.phases[phase].contacts),
                 contacts.chosen_rows) {
+  for (const MeshNode& node : discrete.nodes) {
+    if (node.phase == phase) times_.push_back(node.time);
+  }
   const MotionProblem& problem = discrete.problem;
   const ContactSchedule& schedule = discrete.schedule;
   const auto& held = problem.phases[phase].contacts;
@@ -224,7 +227,7 @@ void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
                     values.rows.segment(torque_row(k), torques_.count()));
   placement_.evaluate(k, dynamics_.terms(), point.v, point.anchors,
                       values.rows.segment(placement_row(k), placement_.count(k)));
-  const NodeReading at_node{dynamics_.terms(), point.q, point.v, point.tau, values.forces};
+  const NodeReading at_node{dynamics_.terms(), point.q, point.v, point.tau, values.forces, times_[k]};
   terms_.evaluate(k, at_node, values.rows.segment(term_row(k), terms_.count(k)));
   values.cost = cost_.value(point, dynamics_.terms(), values.forces);
   const TermCosts::Value of_terms = term_costs_.value(point, at_node);

@@ -135,6 +135,7 @@ class NodeFunctions {
   bool free_duration_;
   StabilisationOfStep stabilisation_;
   std::vector<double> per_gain_step_;  ///< at each node: duration of the phase over the step of its gains
+  std::vector<double> times_;          ///< of each node, since the start of the motion [s]
   std::vector<std::string> contact_names_, force_names_;
   std::vector<bool> opens_;
   std::vector<int> landed_;

@@ -1,4 +1,4 @@
-#include "alternatives/centroidal/centroidal_kinematics.hpp"
+#include "prowl/dynamics/centroidal_kinematics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <pinocchio/algorithm/centroidal.hpp>
 #include <pinocchio/multibody/data.hpp>
 
+#include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/pinocchio_model.hpp"
 #include "tests/support/random_states.hpp"
@@ -55,6 +56,25 @@ TEST(CentroidalKinematics, ComAndMomentumAreThoseOfPinocchio) {
       EXPECT_LT((kinematics.momentum() - data.hg.toVector()).norm(), 1e-11 * robot.mass());
       EXPECT_LT((kinematics.momentum_dv() - data.Ag).norm(), 1e-11 * robot.mass());
     }
+  }
+}
+
+/// Whatever the joints do, nothing turns a robot in the air, and its centre of mass falls.
+TEST(CentroidalKinematics, MomentumStaysInTheAir) {
+  for (const RobotModel& robot : {test::hyq(), test::solo12(), test::talos()}) {
+    test::RandomStates states(robot, 4);
+    const VectorXd q = states.configuration(), v = states.velocity();
+    std::mt19937 rng(5);
+    ForwardDynamics dynamics(robot, {});
+    dynamics.evaluate(q, v, test::random_vector(rng, robot.nu(), 0.1 * robot.weight()));
+    CentroidalKinematics kinematics(robot);
+    kinematics.update(q, v);
+    VectorXd rate = v;  // in the tangent of q
+    rate.head<3>() = base_rotation(q) * v.head<3>();
+    const SpatialVector by_a = kinematics.momentum_dv() * dynamics.acceleration();
+    SpatialVector expected = SpatialVector::Zero();
+    expected(2) = -robot.weight();
+    EXPECT_LT((kinematics.momentum_dq() * rate + by_a - expected).norm(), 1e-9 * by_a.norm()) << robot.name();
   }
 }
 

@@ -33,7 +33,6 @@ class CentroidalKinematics {
   using Vector3 = Eigen::Vector3d;
   using Columns3 = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-  /// `robot` must outlive this.
   explicit CentroidalKinematics(const RobotModel& robot);
 
   /// Sets q (nq) and v (nv) and evaluates the rest.

@@ -1,4 +1,4 @@
-#include "alternatives/centroidal/centroidal_kinematics.hpp"
+#include "prowl/dynamics/centroidal_kinematics.hpp"
 
 #include "prowl/dynamics/spatial_cross.hpp"
 
