@@ -140,6 +140,8 @@ int run(int argc, char** argv) {
   add_report_command(app, status);
   add_view_command(app, status);
   add_export_command(app, status);
+  add_batch_command(app, status);
+  add_library_command(app, status);
   add_new_command(app, status);
   add_doctor_command(app, status);
   add_completion_command(app, status);

@@ -20,6 +20,8 @@ void add_figures_command(CLI::App& app, int& status);
 void add_report_command(CLI::App& app, int& status);
 void add_view_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
+void add_batch_command(CLI::App& app, int& status);
+void add_library_command(CLI::App& app, int& status);
 void add_new_command(CLI::App& app, int& status);
 void add_doctor_command(CLI::App& app, int& status);
 void add_completion_command(CLI::App& app, int& status);

@@ -51,7 +51,8 @@ std::vector<std::string> given_options(const CLI::App& verb) {
 /// Handles the lines printed by _verb.py.
 class Listener {
  public:
-  explicit Listener(std::string verb) : verb_(std::move(verb)) {}
+  /// `what`: plural name of what the progress counts.
+  Listener(std::string what, bool json) : what_(std::move(what)), json_(json) {}
 
   void operator()(const std::string& line) {
     Json said = Json::parse(line, nullptr, false);
@@ -60,8 +61,10 @@ class Listener {
     } else if (said.contains("message")) {
       print_message(said["message"].get<std::string>() + "\n");
     } else if (said.contains("progress")) {
-      if (!bar_) bar_.emplace(verb_, said["progress"][1].get<int>());
+      if (!bar_) bar_.emplace(what_, said["progress"][1].get<int>());
       bar_->show(said["progress"][0].get<int>());
+    } else if (said.contains("event")) {
+      if (json_) print_bytes(said.dump() + "\n");
     } else {
       last_ = std::move(said);
     }
@@ -70,7 +73,8 @@ class Listener {
   const Json& last() const { return last_; }
 
  private:
-  std::string verb_;
+  std::string what_;
+  bool json_;
   std::optional<ProgressBar> bar_;
   Json last_;
 };
@@ -104,7 +108,7 @@ int run_python_verb(const CLI::App& verb, const PythonVerb& arguments) {
   }
   std::vector<std::string> command = {arguments.python, "-B", script.string(), verb.get_name()};
   for (const std::string& option : given_options(verb)) command.push_back(option);
-  Listener listener(verb.get_name());
+  Listener listener(verb.get_name() == "batch" ? "motions" : verb.get_name(), arguments.json);
   const int status = run_program(command, [&listener](const std::string& line) { listener(line); });
   if (status > kSignalled) {
     print_message(fmt::format("prowl: {} was terminated by signal {}\n", arguments.python, status - kSignalled));
@@ -115,14 +119,15 @@ int run_python_verb(const CLI::App& verb, const PythonVerb& arguments) {
   if (status != 0 || !said.contains("result")) {
     throw Error(fmt::format("{} {} failed with status {}", arguments.python, script.string(), status));
   }
+  const int exit_status = said["result"].value("exit_status", 0);
   if (arguments.json) {
-    Json result = {{"verb", verb.get_name()}, {"exit_status", 0}};
+    Json result = {{"verb", verb.get_name()}, {"exit_status", exit_status}};
     result.update(said["result"]);
     print_bytes(json_text(result));
   } else {
     print_result(said["text"]);
   }
-  return 0;
+  return exit_status;
 }
 
 }  // namespace prowl::cli

@@ -23,6 +23,7 @@ if _util.find_spec("prowl._prowl") is None:
         "scripts/setup builds it, or install the wheel"
     )
 
+from ._batch import batch, read_library
 from ._exports import Export, export
 from ._figures import Figures, figures
 from ._files import parse_robot, parse_task, read_robot, read_task, shipped_robots, shipped_tasks
@@ -40,6 +41,7 @@ from ._prowl import (
     InputError,
     Interrupted,
     Iterate,
+    Job,
     JudgedPoint,
     Link,
     Motion,
@@ -89,6 +91,7 @@ __all__ = [
     "InputError",
     "Interrupted",
     "Iterate",
+    "Job",
     "JudgedPoint",
     "Link",
     "Motion",
@@ -108,6 +111,7 @@ __all__ = [
     "Tracker",
     "Tube",
     "__version__",
+    "batch",
     "diagnose",
     "difference",
     "export",
@@ -117,6 +121,7 @@ __all__ = [
     "parse_robot",
     "parse_task",
     "quantity_names",
+    "read_library",
     "read_plan",
     "read_robot",
     "read_task",

@@ -1,9 +1,9 @@
-"""Verbs of the command that this package implements. `prowl figures` and `prowl export` run this file
+"""Verbs of the command that this package implements. `prowl figures`, `export`, `batch` and `library` run this file
 (cli/verbs/python_verb.cpp):
 
     _verb.py VERB OPTIONS
 
-Prints one JSON object per line: {"progress": [done, total]}, {"message": text}, and at the end {"error":
+Prints one JSON object per line: {"progress": [done, total]}, {"message": text}, {"event": name, ...}, and at the end {"error":
 text, "kind": as in docs/command-line.md}, or {"result": object, "text": the same for people}.
 """
 
@@ -18,7 +18,12 @@ import warnings
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
-LIBRARIES = {"figures": "numpy, scipy and matplotlib", "export": "numpy, mcap and mcap-ros2-support"}
+LIBRARIES = {  # of each verb: what it needs, and the extra of the wheel that brings it
+    "figures": ("numpy, scipy and matplotlib", "figures"),
+    "export": ("numpy, mcap and mcap-ros2-support", "formats"),
+    "batch": ("dask, distributed and pyarrow", "batch"),
+    "library": ("pyarrow", "batch"),
+}
 
 
 def _say(**line: object) -> None:
@@ -76,6 +81,83 @@ def _export(options: argparse.Namespace) -> None:
     )
 
 
+def _summary(library: object) -> tuple[str, dict[str, object]]:
+    """For people, and the same as data."""
+    index = library.index
+    grades = {} if index.num_rows == 0 else library.grades()
+    causes = library.causes()
+    lines = [f"{library.count} motions, {library.done} done, {library.kept} kept"]
+    lines += [f"{count:>8}  {grade}" for grade, count in grades.items()]
+    lines += [f"{count:>8}  failed: {cause}" for cause, count in causes.items()]
+    lines.append(f"sha256 {library.sha256()}")
+    data = {"count": library.count, "done": library.done, "kept": library.kept, "grades": grades, "causes": causes}
+    return "\n".join(lines) + "\n", data
+
+
+def _batch(options: argparse.Namespace) -> None:
+    import prowl
+
+    job = options.directory
+    out = options.out or os.path.join("out", os.path.splitext(os.path.basename(job))[0])
+    tls = {"tls_ca_file": options.tls_ca, "tls_client_cert": options.tls_cert, "tls_client_key": options.tls_key}
+    last = None
+
+    def tell(progress: object) -> None:
+        nonlocal last
+        if last is None and progress.dashboard:
+            _say(message=f"Dask's dashboard: {progress.dashboard}")
+        last = progress
+        _say(progress=[progress.done, progress.total])
+        _say(
+            event="progress",
+            done=progress.done,
+            total=progress.total,
+            kept=progress.kept,
+            causes=progress.causes,
+            unfinished=progress.unfinished,
+            rate=progress.rate,
+        )
+
+    try:
+        library = prowl.batch(
+            job,
+            out,
+            workers=options.workers,
+            scheduler=options.scheduler,
+            tls={key: value for key, value in tls.items() if value} or None,
+            package_dirs=options.package_dir,
+            progress=False,
+            on_progress=tell,
+        )
+    except KeyboardInterrupt:
+        _say(message="stopped; the same command goes on")
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGINT)
+        raise
+    text, data = _summary(library)
+    rate = f", {last.rate:.3g} motions a second" if last.done_here else ""
+    text += f"written to {out}{rate}\n"
+    if last.unfinished:
+        text += f"{last.unfinished} motions took longer than the job allows; the same command tries them again\n"
+    _say(result={"directory": os.path.abspath(out), "exit_status": 6 if last.unfinished else 0, **data}, text=text)
+
+
+def _library(options: argparse.Namespace) -> None:
+    import prowl
+
+    library = prowl.read_library(options.directory)
+    if options.motion is not None:
+        folder = options.out or os.path.join(
+            os.path.dirname(os.path.abspath(options.directory)), f"motion_{options.motion}"
+        )
+        plan = library.plan(options.motion)
+        plan.write(folder)
+        _say(result={"directory": os.path.abspath(folder)}, text=f"{plan.summary()}written to {folder}\n")
+        return
+    text, data = _summary(library)
+    _say(result={"directory": os.path.abspath(options.directory), **data}, text=text)
+
+
 def _options() -> argparse.Namespace:
     """Options, checked and explained by the command."""
     parser = argparse.ArgumentParser()
@@ -89,6 +171,11 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--format", action="append")
     parser.add_argument("--rate", type=float)
     parser.add_argument("--simulation", action="store_true")
+    parser.add_argument("--workers", type=int)
+    parser.add_argument("--scheduler")
+    for name in ("ca", "cert", "key"):
+        parser.add_argument(f"--tls-{name}")
+    parser.add_argument("--motion", type=int)
     return parser.parse_args()
 
 
@@ -105,23 +192,26 @@ def _run(options: argparse.Namespace) -> None:
         OSError: "files",
     }
     try:
-        {"figures": _figures, "export": _export}[options.verb](options)
+        {"figures": _figures, "export": _export, "batch": _batch, "library": _library}[options.verb](options)
     except tuple(kinds) as error:
         if isinstance(error.__cause__, ModuleNotFoundError):
             raise error.__cause__ from None
-        is_option = str(error).startswith(("format: ", "joint: ", "rate: "))  # named like the argument of the function
+        is_option = str(error).startswith(
+            ("format: ", "joint: ", "rate: ", "scheduler: ")
+        )  # named like the argument of the function
         kind = next(kind for base, kind in kinds.items() if isinstance(error, base))
         _say(error=f"{'--' if is_option else ''}{error}", kind=kind)
 
 
 def main() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
     options = _options()
+    if options.verb != "batch":  # which closes its library
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         _run(options)
     except ModuleNotFoundError as error:
-        extra = {"figures": "figures", "export": "formats"}[options.verb]
-        needed = f'need a Python with {LIBRARIES[options.verb]}: pip install "prowl[{extra}]", or --python PATH'
+        libraries, extra = LIBRARIES[options.verb]
+        needed = f'need a Python with {libraries}: pip install "prowl[{extra}]", or --python PATH'
         _say(error=f"{sys.executable}: {error.name} is missing; {needed}", kind="input")
     except ImportError as error:  # compiled module or its libraries are missing
         _say(error=str(error), kind="files")

@@ -10,6 +10,7 @@ void bind_files(nanobind::module_& module);
 void bind_robot(nanobind::module_& module);
 void bind_terms(nanobind::module_& module);
 void bind_task(nanobind::module_& module);
+void bind_job(nanobind::module_& module);
 void bind_certificate(nanobind::module_& module);
 void bind_motion(nanobind::module_& module);
 void bind_tracker(nanobind::module_& module);

@@ -13,6 +13,7 @@ NB_MODULE(_prowl, module) {
   bind_robot(module);
   bind_terms(module);
   bind_task(module);
+  bind_job(module);
   bind_certificate(module);
   bind_motion(module);
   bind_tracker(module);

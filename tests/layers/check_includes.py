@@ -162,6 +162,7 @@ ALLOWED = {
         "prowl/robust",
         "prowl/plan_folder",
     ],
+    "prowl/batch": ["prowl/files", "prowl/certificate", "prowl/task_file"],
     "prowl/starter": [
         "prowl/linear_algebra",
         "prowl/text",
@@ -254,6 +255,7 @@ ALLOWED = {
         "prowl/task_file",
         "prowl/session",
         "prowl/plan_folder",
+        "prowl/batch",
         "prowl/report_page",
         "alternatives",
         "screen",
@@ -275,6 +277,7 @@ LIBRARIES = {
             "prowl/certificate",
             "prowl/tracking",
             "prowl/simulation",
+            "prowl/batch/job.cpp",
             "prowl/starter/sole.cpp",
             "cli/screen/progress_bar.hpp",
             "cli/verbs/view_server.cpp",
@@ -287,7 +290,7 @@ LIBRARIES = {
     "Fatrop": (r"fatrop/|blasfeo", ["prowl/solvers/foreign/fatrop_solver.cpp"]),
     "Uno": (r"uno/", ["prowl/solvers/foreign/uno_solver.cpp"]),
     "MuJoCo": (r"mujoco/", ["prowl/mjcf", "prowl/simulation/mujoco_model.hpp"]),
-    "toml++": (r"toml\+\+/|toml\.hpp", ["prowl/task_file"]),
+    "toml++": (r"toml\+\+/|toml\.hpp", ["prowl/task_file", "prowl/batch"]),
     "nlohmann": (
         r"nlohmann/",
         ["prowl/files", "prowl/plan_folder", "prowl/report_page", "cli"],

@@ -69,6 +69,26 @@ def sweep_bar() -> Iterator[Callable[[int, int], None]]:
         bar.close()
 
 
+@contextmanager
+def batch_bar() -> Iterator[Callable[[Any], None]]:
+    """Bar of motions that are done, with rate, share kept, failures by cause and the remaining time."""
+    bar = _bar(desc="motions", unit=" motions")
+
+    def show(progress: Any) -> None:
+        bar.total = progress.total
+        if bar.n == 0:
+            bar.initial = progress.done - progress.done_here
+        share = 100.0 * progress.kept / progress.done if progress.done else 100.0
+        causes = "".join(f", {count} {cause}" for cause, count in progress.causes.items())
+        bar.set_postfix_str(f"{share:.3g} % kept{causes}", refresh=False)
+        bar.update(progress.done - bar.n)
+
+    try:
+        yield show
+    finally:
+        bar.close()
+
+
 def run_with_bar(
     progress: bool | None,
     bar: AbstractContextManager[Callable[..., None]],

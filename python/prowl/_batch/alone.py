@@ -1,0 +1,55 @@
+"""One motion in a process of its own, with limited memory: for a motion that lost its worker again and again.
+
+Reads a pickled (JobText, index, bytes) from stdin and writes a pickled Block to stdout; exit status 3 if memory ends.
+"""
+
+from __future__ import annotations
+
+import pickle
+import resource
+import subprocess
+import sys
+
+from .. import _prowl
+from .motion import Motion
+from .tables import index_table, samples_table, to_bytes
+from .worker import Block, JobText, plan_block
+
+MEMORY = 4 << 30  #: [bytes] of the address space: six times what a worker needs
+_OUT_OF_MEMORY = 3
+
+
+def plan_alone(text: JobText, index: int, job: _prowl.Job) -> Block:
+    """Raises Error if the motion ends its process for another reason than memory."""
+    run = subprocess.run(
+        [sys.executable, "-c", "import sys, pickle; sys.path[:] = pickle.load(sys.stdin.buffer); "
+         "from prowl._batch.alone import main; main()"],
+        input=pickle.dumps(sys.path) + pickle.dumps((text, index, MEMORY)),
+        stdout=subprocess.PIPE,
+    )  # fmt: skip
+    if run.returncode == _OUT_OF_MEMORY:
+        row = {
+            "index": index,
+            "task_sha256": "",
+            "draws": job.values(index),
+            "kept": False,
+            "cause": "out of memory",
+            "diagnosis": f"needs more than {MEMORY >> 20} MiB",
+        }
+        motion = Motion(row, None)
+        return Block(
+            index, 1, (), to_bytes(index_table(job, [motion])), to_bytes(samples_table([motion], index, job.gains))
+        )
+    if run.returncode != 0:
+        raise _prowl.Error(f"motion {index} ended its process three times and alone, with status {run.returncode}")
+    return pickle.loads(run.stdout)
+
+
+def main() -> None:
+    text, index, memory = pickle.load(sys.stdin.buffer)
+    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    try:
+        block = plan_block(text, index, 1)
+    except MemoryError:
+        sys.exit(_OUT_OF_MEMORY)
+    sys.stdout.buffer.write(pickle.dumps(block))

@@ -1,0 +1,33 @@
+"""Jobs: from files, or from dicts with the same keys."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from .. import _prowl
+from .._documents import toml_text
+from .._files import SHARE, parse_task
+
+AnyJob = str | os.PathLike[str] | Mapping[str, Any]
+
+
+def read_job(job: AnyJob) -> _prowl.Job:
+    """The job, and its task; raises InputError with file, line and column."""
+    if isinstance(job, Mapping):
+        return _prowl.read_job(toml_text(job), Path.cwd() / "job.toml", SHARE / "tasks")
+    path = Path(job)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise _prowl.InputError(f"{path}: {error.strerror}") from None
+    return _prowl.read_job(text, path, SHARE / "tasks")
+
+
+def drawn_task(job: _prowl.Job, index: int, package_dirs: tuple[str, ...]) -> _prowl.Task:
+    """The task of one motion. A time limit of the task would make its result depend on the machine."""
+    return parse_task(
+        job.task_text(index), folder=job.task_path.parent, package_dirs=package_dirs, max_time=job.hang_seconds
+    )

@@ -1,0 +1,181 @@
+"""Libraries of motions on disk."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from .. import _prowl
+from .._runs.solve import solve
+from .job import drawn_task
+from .worker import JobText
+
+FORMAT = 1  #: of the folder; a change of columns or file names makes the next
+_ABOUT, _INDEX = "library.json", "index.parquet"
+
+
+def _write(path: Path, write: Any) -> None:
+    """Writes a file whole or not at all, also when the power fails."""
+    unfinished = path.with_suffix(path.suffix + ".unfinished")
+    try:
+        write(unfinished)
+        with open(unfinished, "rb") as file:
+            os.fsync(file.fileno())
+        os.replace(unfinished, path)
+    except OSError as error:
+        unfinished.unlink(missing_ok=True)
+        raise _prowl.FileError(f"{path}: {error.strerror or error}; what is complete is kept") from error
+
+
+def _write_table(path: Path, table: pa.Table) -> None:
+    _write(path, lambda to: pq.write_table(table, to, compression="zstd"))
+
+
+class Library:
+    """A folder with motions: `index` has a row for each, shards have the samples of those that are kept.
+
+    Files: library.json, job.toml and task.toml (its input), index.parquet, and for each shard index/K.parquet and
+    motions/K.parquet. docs/batch.md explains the columns.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        """Raises InputError if the folder is no library, or one of another version."""
+        self.folder = Path(folder)
+        try:
+            about = json.loads((self.folder / _ABOUT).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            raise _prowl.InputError(f"{self.folder}: no library of motions: no readable {_ABOUT}") from None
+        if about.get("format") != FORMAT:
+            raise _prowl.InputError(
+                f"{self.folder}: a library of format {about.get('format')}; this version reads {FORMAT}: make it again"
+            )
+        self._about = about
+        self.text = JobText(
+            job=(self.folder / "job.toml").read_text(encoding="utf-8"),
+            job_path=about["job_path"],
+            task=(self.folder / "task.toml").read_text(encoding="utf-8"),
+            task_path=about["task_path"],
+            instruction_set=about["instruction_set"],
+            package_dirs=tuple(about["package_dirs"]),
+        )
+        self.job: _prowl.Job = _prowl.job_of(self.text.job, self.text.job_path, self.text.task, self.text.task_path)
+
+    @classmethod
+    def create(cls, folder: Path, text: JobText, job: _prowl.Job) -> Library:
+        """An empty one; an existing one of the same job is opened, any other content refused."""
+        about = {
+            "format": FORMAT,
+            "prowl": _prowl.__version__,
+            "instruction_set": text.instruction_set,
+            "count": job.count,
+            "shard": job.shard,
+            "job_path": text.job_path,
+            "task_path": text.task_path,
+            "package_dirs": list(text.package_dirs),
+        }
+        if (folder / _ABOUT).exists():
+            library = cls(folder)
+            if library.text != text or library._about != about:
+                raise _prowl.InputError(
+                    f"{folder}: the library of another job, version or machine; need another folder"
+                )
+            return library
+        if folder.exists() and any(folder.iterdir()):
+            raise _prowl.InputError(f"{folder}: not empty and no library; need another folder")
+        try:
+            for part in ("index", "motions"):
+                (folder / part).mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise _prowl.FileError(f"{folder}: {error.strerror}") from error
+        _write(folder / "job.toml", lambda to: to.write_text(text.job, encoding="utf-8"))
+        _write(folder / "task.toml", lambda to: to.write_text(text.task, encoding="utf-8"))
+        _write(folder / _ABOUT, lambda to: to.write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8"))
+        return cls(folder)
+
+    @property
+    def count(self) -> int:
+        """Motions of the job, made or not."""
+        return self.job.count
+
+    @property
+    def shards(self) -> int:
+        return -(-self.job.count // self.job.shard)
+
+    def _part(self, shard: int, kind: str) -> Path:
+        return self.folder / kind / f"{shard:05d}.parquet"
+
+    def has_shard(self, shard: int) -> bool:
+        return self._part(shard, "index").exists()
+
+    def write_shard(self, shard: int, index: pa.Table, samples: pa.Table) -> None:
+        """The index is last: with it, the shard is complete."""
+        _write_table(self._part(shard, "motions"), samples)
+        _write_table(self._part(shard, "index"), index)
+
+    def write_index(self) -> None:
+        """One table of all complete shards."""
+        parts = [pq.read_table(self._part(k, "index")) for k in range(self.shards) if self.has_shard(k)]
+        if parts:
+            _write_table(self.folder / _INDEX, pa.concat_tables(parts))
+
+    @property
+    def index(self) -> pa.Table:
+        """One row for each motion that is done."""
+        parts = [pq.read_table(self._part(k, "index")) for k in range(self.shards) if self.has_shard(k)]
+        return pa.concat_tables(parts) if parts else pa.table({"kept": pa.array([], pa.bool_())})
+
+    def samples(self, index: int) -> pa.Table:
+        """Samples of a motion; without rows if it was not kept. Raises InputError if it is not done."""
+        self._check(index)
+        shard = index // self.job.shard
+        if not self.has_shard(shard):
+            raise _prowl.InputError(f"{self.folder}: motion {index} is not done yet")
+        return pq.read_table(self._part(shard, "motions"), filters=[("index", "=", index)])
+
+    def plan(self, index: int) -> _prowl.Plan:
+        """Plans a motion again, for its report or a simulation: the same motion, on the same kind of machine."""
+        self._check(index)
+        return solve(drawn_task(self.job, index, self.text.package_dirs), progress=False)
+
+    def _check(self, index: int) -> None:
+        if not 0 <= index < self.job.count:
+            raise _prowl.InputError(f"index: {index} is not allowed; need 0 to {self.job.count - 1}")
+
+    def causes(self) -> dict[str, int]:
+        """Failed motions by cause, most frequent first."""
+        index = self.index
+        causes = index["cause"].to_pylist() if index.num_rows else []
+        return dict(Counter(cause for cause in causes if cause).most_common())
+
+    def grades(self) -> dict[str, int]:
+        """Kept motions by grade of their certificate."""
+        index = self.index
+        kept = index.filter(index["kept"])
+        return dict(Counter(kept["grade"].to_pylist()))
+
+    @property
+    def done(self) -> int:
+        return self.index.num_rows
+
+    @property
+    def kept(self) -> int:
+        return int(np.sum(self.index["kept"].to_numpy(zero_copy_only=False)))
+
+    def sha256(self) -> str:
+        """Of all files but library.json, which names paths of this machine: equal libraries have equal hashes."""
+        total = hashlib.sha256()
+        for path in sorted(path for path in self.folder.rglob("*") if path.is_file() and path.name != _ABOUT):
+            content = hashlib.sha256(path.read_bytes()).hexdigest()
+            total.update(f"{path.relative_to(self.folder).as_posix()} {content}\n".encode())
+        return total.hexdigest()
+
+    def __repr__(self) -> str:
+        return f"<prowl.Library {self.folder}: {self.kept} of {self.done} motions kept, {self.count} asked>"
