@@ -27,7 +27,8 @@ std::vector<Step> steps_of(const std::string& path) {
       const std::size_t end = path.find(']', at);
       const std::string digits = end == std::string::npos ? "" : path.substr(at + 1, end - at - 1);
       constexpr std::size_t kMostDigits = 6;
-      if (digits.empty() || digits.size() > kMostDigits ||
+      const bool has_zeros = digits.size() > 1 && digits.front() == '0';  // two texts for one place
+      if (digits.empty() || has_zeros || digits.size() > kMostDigits ||
           digits.find_first_not_of("0123456789") != std::string::npos) {
         refuse_path(path);
       }

@@ -83,9 +83,7 @@ def _export(options: argparse.Namespace) -> None:
 
 def _summary(library: object) -> tuple[str, dict[str, object]]:
     """For people, and the same as data."""
-    index = library.index
-    grades = {} if index.num_rows == 0 else library.grades()
-    causes = library.causes()
+    grades, causes = library.grades(), library.causes()
     lines = [f"{library.count} motions, {library.done} done, {library.kept} kept"]
     lines += [f"{count:>8}  {grade}" for grade, count in grades.items()]
     lines += [f"{count:>8}  failed: {cause}" for cause, count in causes.items()]

@@ -48,8 +48,8 @@ TEST(KeyPath, SaysWhatIsMissing) {
   EXPECT_EQ(said("gait.speed"), "the task has no gait");
   EXPECT_EQ(said("goal[0].base_displacement_m[3]"), "the task has no goal[0].base_displacement_m[3]");
   EXPECT_EQ(said("name.x"), "the task's name has no keys");
-  for (const char* const path :
-       {"", ".", "goal[", "goal[]", "goal[x]", "goal[0]time_s", "goal[99999999]", "a..b", "[", "a."}) {
+  for (const char* const path : {"", ".", "goal[", "goal[]", "goal[x]", "goal[00].time_s", "goal[0]time_s",
+                                 "goal[99999999]", "a..b", "[", "a."}) {
     EXPECT_THAT(said(path), testing::HasSubstr("is no path of keys")) << path;
   }
 }

@@ -11,21 +11,23 @@ import subprocess
 import sys
 
 from .. import _prowl
+from .._processes import die_with_parent
 from .motion import Motion
 from .tables import index_table, samples_table, to_bytes
-from .worker import Block, JobText, plan_block
+from .worker import Block, JobText, plan_block, why_other
 
-MEMORY = 4 << 30  #: [bytes] of the address space: six times what a worker needs
+MEMORY = 4 << 30  #: [bytes] of data, without what is reserved only: many times what a worker needs
 _OUT_OF_MEMORY = 3
 
 
 def plan_alone(text: JobText, index: int, job: _prowl.Job) -> Block:
-    """Raises Error if the motion ends its process for another reason than memory."""
+    """The motion is unfinished if it ends its process for another reason than memory."""
     run = subprocess.run(
         [sys.executable, "-c", "import sys, pickle; sys.path[:] = pickle.load(sys.stdin.buffer); "
          "from prowl._batch.alone import main; main()"],
         input=pickle.dumps(sys.path) + pickle.dumps((text, index, MEMORY)),
         stdout=subprocess.PIPE,
+        check=False,
     )  # fmt: skip
     if run.returncode == _OUT_OF_MEMORY:
         row = {
@@ -41,15 +43,17 @@ def plan_alone(text: JobText, index: int, job: _prowl.Job) -> Block:
             index, 1, (), to_bytes(index_table(job, [motion])), to_bytes(samples_table([motion], index, job.gains))
         )
     if run.returncode != 0:
-        raise _prowl.Error(f"motion {index} ended its process three times and alone, with status {run.returncode}")
+        return Block(index, 1, (index,), to_bytes(index_table(job, [])), to_bytes(samples_table([], index, job.gains)))
     return pickle.loads(run.stdout)
 
 
 def main() -> None:
+    die_with_parent()
     text, index, memory = pickle.load(sys.stdin.buffer)
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    why_other(text)  # reads what is not of the motion
+    resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
     try:
-        block = plan_block(text, index, 1)
+        content = pickle.dumps(plan_block(text, index, 1))
     except MemoryError:
         sys.exit(_OUT_OF_MEMORY)
-    sys.stdout.buffer.write(pickle.dumps(block))
+    sys.stdout.buffer.write(content)

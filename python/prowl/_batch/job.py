@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -26,8 +27,17 @@ def read_job(job: AnyJob) -> _prowl.Job:
     return _prowl.read_job(text, path, SHARE / "tasks")
 
 
+_PARTS = 4  #: of the time after which a motion hangs: so no part that Prowl gives to one of its steps ends before it
+
+
 def drawn_task(job: _prowl.Job, index: int, package_dirs: tuple[str, ...]) -> _prowl.Task:
     """The task of one motion. A time limit of the task would make its result depend on the machine."""
     return parse_task(
-        job.task_text(index), folder=job.task_path.parent, package_dirs=package_dirs, max_time=job.hang_seconds
+        job.task_text(index), folder=job.task_path.parent, package_dirs=package_dirs, max_time=_PARTS * job.hang_seconds
     )
+
+
+def robot_sha256(job: _prowl.Job, package_dirs: tuple[str, ...]) -> str:
+    """Of the robot file and the URDF of the job's task, as this machine has them."""
+    task = parse_task(job.base_task, folder=job.task_path.parent, package_dirs=package_dirs)
+    return hashlib.sha256((task.robot_text + "\0" + task.robot.urdf_text).encode()).hexdigest()

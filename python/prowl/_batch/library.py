@@ -2,37 +2,50 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import json
 import os
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from .. import _prowl
 from .._runs.solve import solve
 from .job import drawn_task
-from .worker import JobText
+from .tables import index_schema
+from .worker import JobText, why_other
 
 FORMAT = 1  #: of the folder; a change of columns or file names makes the next
 _ABOUT, _INDEX = "library.json", "index.parquet"
 
 
 def _write(path: Path, write: Any) -> None:
-    """Writes a file whole or not at all, also when the power fails."""
-    unfinished = path.with_suffix(path.suffix + ".unfinished")
+    """Writes a file whole or not at all, also when the power fails. Readers skip names that begin with a dot."""
+    unfinished = path.with_name(f".{path.name}.unfinished")
     try:
         write(unfinished)
-        with open(unfinished, "rb") as file:
-            os.fsync(file.fileno())
+        _sync(unfinished)
         os.replace(unfinished, path)
-    except OSError as error:
+        _sync(path.parent)
+    except BaseException as error:
         unfinished.unlink(missing_ok=True)
+        if not isinstance(error, OSError):
+            raise
         raise _prowl.FileError(f"{path}: {error.strerror or error}; what is complete is kept") from error
+
+
+def _sync(path: Path) -> None:
+    file = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(file)
+    finally:
+        os.close(file)
 
 
 def _write_table(path: Path, table: pa.Table) -> None:
@@ -58,12 +71,14 @@ class Library:
                 f"{self.folder}: a library of format {about.get('format')}; this version reads {FORMAT}: make it again"
             )
         self._about = about
+        self._index: pa.Table | None = None  # until another shard is written
         self.text = JobText(
-            job=(self.folder / "job.toml").read_text(encoding="utf-8"),
+            job=(self.folder / "job.toml").read_bytes().decode(),  # line ends as they are
             job_path=about["job_path"],
-            task=(self.folder / "task.toml").read_text(encoding="utf-8"),
+            task=(self.folder / "task.toml").read_bytes().decode(),
             task_path=about["task_path"],
-            instruction_set=about["instruction_set"],
+            robot_sha256=about["robot_sha256"],
+            versions=tuple(sorted(about["versions"].items())),
             package_dirs=tuple(about["package_dirs"]),
         )
         self.job: _prowl.Job = _prowl.job_of(self.text.job, self.text.job_path, self.text.task, self.text.task_path)
@@ -73,8 +88,8 @@ class Library:
         """An empty one; an existing one of the same job is opened, any other content refused."""
         about = {
             "format": FORMAT,
-            "prowl": _prowl.__version__,
-            "instruction_set": text.instruction_set,
+            "versions": dict(text.versions),
+            "robot_sha256": text.robot_sha256,
             "count": job.count,
             "shard": job.shard,
             "job_path": text.job_path,
@@ -88,17 +103,30 @@ class Library:
                     f"{folder}: the library of another job, version or machine; need another folder"
                 )
             return library
-        if folder.exists() and any(folder.iterdir()):
+        begun = {"index", "motions", "job.toml", "task.toml"}  # of one that was interrupted at once
+        if folder.exists() and any(path.name not in begun and path.name[0] != "." for path in folder.iterdir()):
             raise _prowl.InputError(f"{folder}: not empty and no library; need another folder")
         try:
             for part in ("index", "motions"):
                 (folder / part).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise _prowl.FileError(f"{folder}: {error.strerror}") from error
-        _write(folder / "job.toml", lambda to: to.write_text(text.job, encoding="utf-8"))
-        _write(folder / "task.toml", lambda to: to.write_text(text.task, encoding="utf-8"))
+        _write(folder / "job.toml", lambda to: to.write_bytes(text.job.encode()))
+        _write(folder / "task.toml", lambda to: to.write_bytes(text.task.encode()))
         _write(folder / _ABOUT, lambda to: to.write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8"))
         return cls(folder)
+
+    @contextmanager
+    def lock(self) -> Iterator[None]:
+        """Raises FileError if another batch() writes this library."""
+        file = os.open(self.folder, os.O_RDONLY)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            yield
+        except BlockingIOError:
+            raise _prowl.FileError(f"{self.folder}: another batch writes this library") from None
+        finally:
+            os.close(file)
 
     @property
     def count(self) -> int:
@@ -113,24 +141,26 @@ class Library:
         return self.folder / kind / f"{shard:05d}.parquet"
 
     def has_shard(self, shard: int) -> bool:
-        return self._part(shard, "index").exists()
+        return self._part(shard, "index").exists() and self._part(shard, "motions").exists()
 
     def write_shard(self, shard: int, index: pa.Table, samples: pa.Table) -> None:
         """The index is last: with it, the shard is complete."""
+        self._index = None
         _write_table(self._part(shard, "motions"), samples)
         _write_table(self._part(shard, "index"), index)
 
     def write_index(self) -> None:
         """One table of all complete shards."""
-        parts = [pq.read_table(self._part(k, "index")) for k in range(self.shards) if self.has_shard(k)]
-        if parts:
-            _write_table(self.folder / _INDEX, pa.concat_tables(parts))
+        if self.done:
+            _write_table(self.folder / _INDEX, self.index.combine_chunks())
 
     @property
     def index(self) -> pa.Table:
         """One row for each motion that is done."""
-        parts = [pq.read_table(self._part(k, "index")) for k in range(self.shards) if self.has_shard(k)]
-        return pa.concat_tables(parts) if parts else pa.table({"kept": pa.array([], pa.bool_())})
+        if self._index is None:
+            parts = [pq.read_table(self._part(k, "index")) for k in range(self.shards) if self.has_shard(k)]
+            self._index = pa.concat_tables([index_schema(self.job).empty_table(), *parts])
+        return self._index
 
     def samples(self, index: int) -> pa.Table:
         """Samples of a motion; without rows if it was not kept. Raises InputError if it is not done."""
@@ -141,8 +171,11 @@ class Library:
         return pq.read_table(self._part(shard, "motions"), filters=[("index", "=", index)])
 
     def plan(self, index: int) -> _prowl.Plan:
-        """Plans a motion again, for its report or a simulation: the same motion, on the same kind of machine."""
+        """Plans a motion again, for its report or a simulation. Raises InputError where it would not be the same: with
+        other versions, instructions or another robot."""
         self._check(index)
+        if why := why_other(self.text):
+            raise _prowl.InputError(f"{self.folder}: this machine {why}: the motion would not be the same")
         return solve(drawn_task(self.job, index, self.text.package_dirs), progress=False)
 
     def _check(self, index: int) -> None:
@@ -151,8 +184,7 @@ class Library:
 
     def causes(self) -> dict[str, int]:
         """Failed motions by cause, most frequent first."""
-        index = self.index
-        causes = index["cause"].to_pylist() if index.num_rows else []
+        causes = self.index["cause"].to_pylist()
         return dict(Counter(cause for cause in causes if cause).most_common())
 
     def grades(self) -> dict[str, int]:
@@ -167,13 +199,16 @@ class Library:
 
     @property
     def kept(self) -> int:
-        return int(np.sum(self.index["kept"].to_numpy(zero_copy_only=False)))
+        return sum(self.index["kept"].to_pylist())
 
     def sha256(self) -> str:
         """Of all files but library.json, which names paths of this machine: equal libraries have equal hashes."""
         total = hashlib.sha256()
-        for path in sorted(path for path in self.folder.rglob("*") if path.is_file() and path.name != _ABOUT):
-            content = hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(self.folder.rglob("*")):
+            if not path.is_file() or path.name == _ABOUT or path.name.startswith("."):
+                continue
+            with path.open("rb") as file:
+                content = hashlib.file_digest(file, "sha256").hexdigest()
             total.update(f"{path.relative_to(self.folder).as_posix()} {content}\n".encode())
         return total.hexdigest()
 

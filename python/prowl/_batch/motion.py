@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import time
 import warnings
 from dataclasses import dataclass
 from typing import Any
@@ -46,13 +48,20 @@ def plan_motion(job: _prowl.Job, index: int, package_dirs: tuple[str, ...] = ())
     text = job.task_text(index)
     row = {"index": index, "task_sha256": hashlib.sha256(text.encode()).hexdigest(), "draws": job.values(index)}
     try:
-        task = drawn_task(job, index, package_dirs)
+        return _planned(job, index, row, package_dirs)
     except _prowl.InputError as error:
-        return _failed(row, "input", str(error))
+        return _failed(row, "input", str(error).replace(f"{job.task_path.parent}{os.sep}", ""))
+    except _prowl.NumericalError as error:
+        return _failed(row, "numerical", str(error))
+
+
+def _planned(job: _prowl.Job, index: int, row: dict[str, Any], package_dirs: tuple[str, ...]) -> Motion:
+    start = time.monotonic()
+    task = drawn_task(job, index, package_dirs)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # no gains: told below
         plan = solve(task, gains=job.gains or job.simulation, progress=False)
-    if plan.status in ("time_limit", "interrupted"):
+    if time.monotonic() - start > job.hang_seconds or plan.status in ("time_limit", "interrupted"):
         return Motion(None, None)
     row |= {
         "status": plan.status,

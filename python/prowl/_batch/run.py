@@ -52,18 +52,25 @@ def _client(workers: int | None, scheduler: str | None, tls: dict[str, str] | No
         security = distributed.Security(require_encryption=True, **tls) if tls else None
         try:
             client = distributed.Client(scheduler, security=security, timeout="30s", set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise _prowl.InputError(f"scheduler: cannot reach {scheduler}: {error}") from error
+            client.wait_for_workers(1, timeout=60)
+        except (OSError, ValueError, TypeError) as error:  # TypeError: no certificates for tls://
+            raise _prowl.InputError(f"scheduler: {scheduler} and a worker of it cannot be reached: {error}") from error
         with client:
             yield client
         return
-    with distributed.LocalCluster(
-        n_workers=workers or os.cpu_count() or 1,
-        threads_per_worker=1,
-        processes=True,
-        dashboard_address="127.0.0.1:0",
-        silence_logs=logging.ERROR,
-    ) as cluster:
+    import dask
+
+    # A task that lost its worker three times is not tried again.
+    with (
+        dask.config.set({"distributed.scheduler.allowed-failures": 2}),
+        distributed.LocalCluster(
+            n_workers=workers or os.cpu_count() or 1,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address="127.0.0.1:0",
+            silence_logs=logging.ERROR,
+        ) as cluster,
+    ):
         with distributed.Client(cluster, set_as_default=False) as client:
             yield client
 
@@ -75,6 +82,7 @@ class _Run:
         self._client, self._library, self._tell = client, library, tell
         self._blocks: dict[int, list[Any]] = {}  # of shards that are not complete
         self._ranges: dict[str, tuple[int, int]] = {}  # of futures: first motion, count
+        self._suspects: list[int] = []  # motions that lost their worker again and again
         self._start = time.monotonic()
         self.progress = BatchProgress(library.count, dashboard=client.dashboard_link or "")
         for row_kept, cause in zip(*_kept_and_causes(library.index)):
@@ -103,6 +111,21 @@ class _Run:
         return future
 
     def run(self) -> None:
+        """Raises Error if the scheduler dies."""
+        from concurrent.futures import CancelledError
+
+        from distributed.comm import CommClosedError
+
+        from .alone import plan_alone
+
+        try:
+            self._run_on_workers()
+        except (CommClosedError, CancelledError) as error:
+            raise _prowl.Error("the scheduler is gone; the same command goes on") from error
+        for index in self._suspects:  # when all else is done
+            self._keep(plan_alone(self._library.text, index, self._library.job))
+
+    def _run_on_workers(self) -> None:
         from distributed import as_completed
 
         missing = self._missing()
@@ -126,15 +149,14 @@ class _Run:
         """Keeps what a future has; returns what has to be done again."""
         from distributed.scheduler import KilledWorker
 
-        from .alone import plan_alone
-
         first, count = self._ranges.pop(future.key)
         try:
             block = future.result()
-        except KilledWorker:
+        except (KilledWorker, MemoryError):
             if count > 1:
                 return [(index, 1) for index in range(first, first + count)]
-            block = plan_alone(self._library.text, first, self._library.job)
+            self._suspects.append(first)
+            return []
         self._keep(block)
         return []
 
@@ -157,11 +179,15 @@ class _Run:
         if sum(one.count for one in blocks) == min(job.shard, job.count - shard * job.shard):
             del self._blocks[shard]
             blocks.sort(key=lambda one: one.first)
-            if not any(one.unfinished for one in blocks):
-                tables = [
-                    pa.concat_tables(from_bytes(getattr(one, kind)) for one in blocks) for kind in ("index", "samples")
-                ]
-                self._library.write_shard(shard, *tables)
+            if any(one.unfinished for one in blocks):
+                self.progress.done -= sum(from_bytes(one.index).num_rows for one in blocks)
+            else:
+                # In one piece: the bytes of a file depend on the pieces.
+                index, samples = (
+                    pa.concat_tables(from_bytes(getattr(one, kind)) for one in blocks).combine_chunks()
+                    for kind in ("index", "samples")
+                )
+                self._library.write_shard(shard, index, samples)
         self._tell(self.progress)
 
 
@@ -195,26 +221,30 @@ def batch(
     with needs("batch"):
         import distributed  # noqa: F401
         import pyarrow  # noqa: F401
+    from .job import robot_sha256
     from .library import Library
-    from .worker import JobText
+    from .tables import index_schema
+    from .worker import JobText, own_versions
 
     if workers is not None and workers < 1:
         raise _prowl.InputError(f"workers: {workers} is not allowed; need 1 or more")
     asked = read_job(job)
     folders = tuple(os.fspath(Path(folder).absolute()) for folder in package_dirs)
     asked.check(list(folders))
+    index_schema(asked)
     text = JobText(
         job=asked.text,
         job_path=os.fspath(asked.path),
         task=asked.base_task,
         task_path=os.fspath(asked.task_path),
-        instruction_set=_prowl.versions()["vector instructions"],
+        robot_sha256=robot_sha256(asked, folders),
+        versions=own_versions(),
         package_dirs=folders,
     )
     library = Library.create(Path(out), text, asked)
 
     def run(tell: Callable[[BatchProgress], object] | None) -> Library:
-        with _client(workers, scheduler, tls) as client:
+        with library.lock(), _client(workers, scheduler, tls) as client:
             try:
                 _Run(client, library, tell or (lambda _: None)).run()
             finally:

@@ -21,7 +21,7 @@ def _draw_type(value: float | bool | str) -> pa.DataType:
 def index_schema(job: _prowl.Job) -> pa.Schema:
     """Columns that no motion has are null: those of a task that Prowl refuses, say."""
     drawn = [(name, _draw_type(value)) for name, value in zip(job.draw_names, job.values(0))]
-    return pa.schema(
+    columns = pa.schema(
         [
             ("index", pa.int64()),
             ("kept", pa.bool_()),
@@ -37,9 +37,12 @@ def index_schema(job: _prowl.Job) -> pa.Schema:
             ("checks", pa.list_(_CHECK)),
             ("diagnosis", pa.string()),
             ("task_sha256", pa.string()),
-            *drawn,
         ]
     )
+    for name, _ in drawn:
+        if name in columns.names:
+            raise _prowl.InputError(f'draw: "{name}" is a column of the index; put another key first')
+    return pa.schema([*columns, *(pa.field(name, kind) for name, kind in drawn)])
 
 
 def index_table(job: _prowl.Job, motions: Iterable[Motion]) -> pa.Table:

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import functools
+import socket
 from dataclasses import dataclass
 
+import pyarrow as pa
+
 from .. import _prowl
+from .job import robot_sha256
 from .motion import plan_motion
 from .tables import index_table, samples_table, to_bytes
 
 
 @dataclass(frozen=True)
 class JobText:
-    """A job and its task as the client read them: workers may have no such files."""
+    """A job and its task as the client read them: workers may have no such files, but need those of the robot."""
 
     job: str
     job_path: str
     task: str
     task_path: str
-    instruction_set: str
+    robot_sha256: str  #: of the robot file and the URDF, which workers read themselves
+    versions: tuple[tuple[str, str], ...]  #: of Prowl, its libraries and their instruction set
     package_dirs: tuple[str, ...] = ()
 
 
@@ -38,15 +43,24 @@ def _job(text: JobText) -> _prowl.Job:
     return _prowl.job_of(text.job, text.job_path, text.task, text.task_path)
 
 
-def plan_block(text: JobText, first: int, count: int) -> Block:
-    """Raises RuntimeError on a machine that computes with other instructions: its last digits may differ."""
-    own = _prowl.versions()["vector instructions"]
-    if own != text.instruction_set:
-        import socket
+def own_versions() -> tuple[tuple[str, str], ...]:
+    return tuple(sorted({**_prowl.versions(), "Arrow": pa.__version__}.items()))
 
-        raise RuntimeError(
-            f"worker on {socket.gethostname()} computes with {own}; this library needs {text.instruction_set}"
-        )
+
+@functools.lru_cache(maxsize=4)
+def why_other(text: JobText) -> str:
+    """Why this process would not make the same bytes; "" if it would."""
+    own, needed = dict(own_versions()), dict(text.versions)
+    names = sorted(name for name in own.keys() | needed.keys() if own.get(name) != needed.get(name))
+    if names:
+        return "has " + "; ".join(f"{name} {own.get(name)}, not {needed.get(name)}" for name in names)
+    return "" if robot_sha256(_job(text), text.package_dirs) == text.robot_sha256 else "has another robot file or URDF"
+
+
+def plan_block(text: JobText, first: int, count: int) -> Block:
+    """Raises Error on a machine that would not make the same bytes, and names it."""
+    if why := why_other(text):
+        raise _prowl.Error(f"the worker on {socket.gethostname()} {why}; need the same as where the library began")
     job = _job(text)
     motions = [plan_motion(job, index, text.package_dirs) for index in range(first, first + count)]
     unfinished = tuple(first + i for i, motion in enumerate(motions) if motion.row is None)
