@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import functools
 import socket
 from dataclasses import dataclass
@@ -41,6 +42,9 @@ class Block:
 @functools.lru_cache(maxsize=4)
 def _job(text: JobText) -> _prowl.Job:
     return _prowl.job_of(text.job, text.job_path, text.task, text.task_path)
+
+
+atexit.register(_job.cache_clear)  # a job is of the compiled module, which ends before this one
 
 
 def own_versions() -> tuple[tuple[str, str], ...]:
