@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/model/all_contacts.hpp"
 #include "prowl/model/torque_share.hpp"
 #include "prowl/transcription/node/node_cost.hpp"
 
@@ -13,12 +13,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
-
-std::vector<int> all_contacts(int count) {
-  std::vector<int> contacts;
-  for (int i = 0; i < count; ++i) contacts.push_back(i);
-  return contacts;
-}
 
 /// Forces of the contacts of the phase, in its order.
 VectorXd held_forces(const Phase& phase, const VectorXd& forces) {
@@ -59,14 +53,12 @@ double task_cost(const MotionProblem& problem, const Trajectory& motion) {
 
 }  // namespace
 
-InverseDynamics::InverseDynamics(const RobotModel& robot)
-    : terms_(robot), num_contacts_(static_cast<int>(robot.contacts().size())) {}
+InverseDynamics::InverseDynamics(const RobotModel& robot) : terms_(robot), contacts_(all_contacts(robot)) {}
 
 VectorXd InverseDynamics::operator()(const TrajectoryPoint& point) {
   terms_.update(point.q, point.v, point.a);
-  ContactKinematics contacts(all_contacts(num_contacts_));
-  contacts.set_configuration(terms_);
-  return terms_.inverse_dynamics() - contacts.jacobian().transpose() * point.force;
+  contacts_.set_configuration(terms_);
+  return terms_.inverse_dynamics() - contacts_.jacobian().transpose() * point.force;
 }
 
 InverseDynamicsCheck check_by_inverse_dynamics(const MotionProblem& problem, const Trajectory& motion) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/trajectory/trajectory.hpp"
@@ -23,7 +24,7 @@ class InverseDynamics {
 
  private:
   RigidBodyTerms terms_;
-  int num_contacts_;
+  ContactKinematics contacts_;
 };
 
 /// Inverse dynamics at the nodes of a motion, for programs without torques.

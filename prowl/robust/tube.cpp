@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "prowl/linear_algebra/factorisations.hpp"
+#include "prowl/model/all_contacts.hpp"
 #include "prowl/model/body_tree.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
@@ -34,12 +34,6 @@ constexpr double kLoading = 0.1;
 constexpr double kLow = 0.1, kLowShare = 0.25;
 constexpr double kSharp = 1e-6;  // tip of the cone that measures what is left, over the weight
 constexpr int kDirections = 8;   // around the axis of a friction cone
-
-std::vector<int> all_contacts(const RobotModel& robot) {
-  std::vector<int> contacts(robot.contacts().size());
-  std::iota(contacts.begin(), contacts.end(), 0);
-  return contacts;
-}
 
 /// Euclidean lengths of the rows.
 VectorXd lengths(const MatrixXd& rows) { return rows.rowwise().norm(); }

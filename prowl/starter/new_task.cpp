@@ -11,6 +11,7 @@
 #include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/error.hpp"
 #include "prowl/linear_algebra/factorisations.hpp"
+#include "prowl/model/all_contacts.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/leg_kinematics.hpp"
 #include "prowl/motion/gait.hpp"
@@ -37,12 +38,6 @@ constexpr double kHyqMass = 86.8, kHyqWeight = 1e-5, kWeightOnSoles = 3e-5;
 double one_digit(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)));
   return unit * std::max(1.0, std::round(x / unit));
-}
-
-std::vector<int> all_contacts(const RobotModel& robot) {
-  std::vector<int> all;
-  for (std::size_t c = 0; c < robot.contacts().size(); ++c) all.push_back(static_cast<int>(c));
-  return all;
 }
 
 /// Contacts at their positions in the nominal posture.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/all_contacts.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/motion/term_evaluation.hpp"
 
@@ -87,9 +87,7 @@ CostTerm cost_of(const MotionProblem& problem, const TermUse& use, const Traject
                  RigidBodyTerms& kinematics) {
   const std::vector<TrajectoryPoint>& nodes = motion.nodes;
   CostTerm result{kOwnTerm + use.name, VectorXd::Zero(std::ssize(nodes)), 0.0};
-  std::vector<int> contacts(problem.robot.contacts().size());  // all: those without contact have no force
-  std::iota(contacts.begin(), contacts.end(), 0);
-  TermEvaluation term(problem.robot, use, contacts);
+  TermEvaluation term(problem.robot, use, all_contacts(problem.robot));  // those without contact have no force
   std::vector<bool> holds;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const auto ends = std::ranges::equal_range(nodes, nodes[k].phase, {}, &TrajectoryPoint::phase);
