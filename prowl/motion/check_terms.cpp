@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "prowl/error.hpp"
+#include "prowl/model/all_contacts.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/robot_frame.hpp"
 #include "prowl/motion/contradicting_terms.hpp"
@@ -44,12 +45,6 @@ void check_names(const MotionProblem& problem, const std::string& field, const T
 /// Numbers of all sizes up to the largest, without the symmetries at which wrong derivatives may be right.
 VectorXd mixed(Eigen::Index size, double largest) {
   return largest * VectorXd::LinSpaced(size, 1.0, static_cast<double>(size)).array().sin();
-}
-
-std::vector<int> all_contacts(const RobotModel& robot) {
-  std::vector<int> contacts(robot.contacts().size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i] = static_cast<int>(i);
-  return contacts;
 }
 
 /// At the first of some moving states near the start at which the term is defined; also with contacts that all push.
@@ -92,7 +87,9 @@ void check_moment(const MotionProblem& problem, const std::string& field, PhaseF
 void check_term_span(const MotionProblem& problem, const std::string& field, const TermUse& use) {
   check_moment(problem, field + ".from", use.from);
   check_moment(problem, field + ".to", use.to);
-  if (!use.holds_at(use.to.phase, use.to.fraction)) refuse_term(field + ".to", "is before from; need a later moment");
+  const bool is_before = use.to.phase < use.from.phase ||
+                         (use.to.phase == use.from.phase && !use.is_moment() && use.to.fraction < use.from.fraction);
+  if (is_before) refuse_term(field + ".to", "is before from; need a later moment");
   if (use.is_moment() && use.from.phase != use.to.phase) {
     refuse_term(field + ".to", "is the same time as from in another phase; need one phase for one moment");
   }
@@ -179,9 +176,7 @@ void check_open_contacts(const MotionProblem& problem, const std::string& field,
   VectorXd f = VectorXd::Zero(use.term->num_rows());
   use.term->value(VectorXd::Zero(3 * std::ssize(reads)), f);
   for (int p = use.from.phase; p <= use.to.phase; ++p) {
-    const bool is_outside = !use.is_moment() && ((p == use.from.phase && use.from.fraction == 1.0) ||
-                                                 (p == use.to.phase && use.to.fraction == 0.0));
-    if (is_outside) continue;
+    if (!use.holds_at(p, p == use.from.phase ? use.from.fraction : 0.0)) continue;
     const std::vector<int> held = contact_indices(problem.phases[p].contacts);
     const auto is_open = [&](const Quantity& quantity) {
       return std::ranges::count(held, problem.robot.contact_index(quantity.name)) == 0;

@@ -26,13 +26,19 @@ std::vector<EntryLimit> entry_limits(const MotionProblem& problem) {
   return limits;
 }
 
-/// Whether there is a moment at which both hold; of loads, which may jump at a phase transition, one inside a phase.
+/// The first moment at which it holds: after a phase transition that of the later phase.
+PhaseFraction first_held(const TermUse& use) {
+  return use.holds_at(use.from.phase, use.from.fraction) ? use.from : PhaseFraction::start_of(use.from.phase + 1);
+}
+
+/// Whether there is a time at which both hold; of loads, which may jump at a phase transition, one in a phase of both.
 bool overlap(const TermUse& a, const TermUse& b) {
-  if (reads_loads(*a.term) && !a.is_moment() && !b.is_moment()) {
+  if (!reads_loads(*a.term)) {
     const auto time = [](PhaseFraction at) { return at.phase + at.fraction; };
-    return std::max(time(a.from), time(b.from)) < std::min(time(a.to), time(b.to));
+    return std::max(time(a.from), time(b.from)) <= std::min(time(a.to), time(b.to));
   }
-  return a.holds_at(b.from.phase, b.from.fraction) || b.holds_at(a.from.phase, a.from.fraction);
+  const PhaseFraction of_a = first_held(a), of_b = first_held(b);
+  return a.holds_at(of_b.phase, of_b.fraction) || b.holds_at(of_a.phase, of_a.fraction);
 }
 
 /// The first entry for which the bounds of both leave nothing; empty if there is none.

@@ -16,6 +16,9 @@ constexpr double kSameMoment = 1e-9;  // of a phase
 bool TermUse::is_moment() const { return std::abs(to.phase - from.phase + to.fraction - from.fraction) <= kSameMoment; }
 
 bool TermUse::holds_at(int phase, double fraction) const {
+  const bool has_end_alone =
+      (phase == from.phase && from.fraction >= 1.0 - kSameMoment) || (phase == to.phase && to.fraction <= kSameMoment);
+  if (has_end_alone && !is_moment()) return false;  // what differs at a phase transition is of the phase inside
   const bool is_over = phase > to.phase || (phase == to.phase && fraction > to.fraction + kSameMoment);
   return !is_over && (phase > from.phase || (phase == from.phase && fraction >= from.fraction - kSameMoment));
 }

@@ -28,7 +28,7 @@ struct TermUse {
 
   bool is_cost() const { return weight.size() > 0; }
   bool is_moment() const;
-  /// True from the first moment to the last, both included.
+  /// True from the first moment to the last, both included; a span only in phases of which it has a part.
   bool holds_at(int phase, double fraction) const;
 };
 

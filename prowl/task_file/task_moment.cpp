@@ -87,15 +87,6 @@ int phase_index(const TomlValue& value, const std::vector<Phase>& phases) {
   return static_cast<int>(found - names.begin());
 }
 
-/// A span between two moments. At a phase transition it begins with the later phase and ends with the earlier one:
-/// what differs between the two, such as forces, is of the phase inside.
-MotionSpan span_between(PhaseFraction from, PhaseFraction to, int phases) {
-  const bool is_moment = from == to;
-  if (!is_moment && from.fraction == 1.0 && from.phase + 1 < phases) from = PhaseFraction::start_of(from.phase + 1);
-  if (!is_moment && to.fraction == 0.0 && to.phase > 0) to = PhaseFraction::end_of(to.phase - 1);
-  return {from, to};
-}
-
 }  // namespace
 
 PhaseFraction read_moment(const TomlTable& table, const std::vector<Phase>& phases, const std::optional<Mesh>& mesh) {
@@ -110,15 +101,14 @@ PhaseFraction read_moment(const TomlTable& table, const std::vector<Phase>& phas
 
 MotionSpan read_span(const TomlTable& table, const std::vector<Phase>& phases, const std::optional<Mesh>& mesh) {
   const WhenKeys when = when_keys(table, phases);
-  const int count = static_cast<int>(phases.size());
   if (when.time) {
     const TomlBounds span = when.time->as_range();
     const auto at = [&](double seconds) {
       return seconds == 0.0 ? PhaseFraction::start_of(0) : moment_at_time(*when.time, seconds, phases, mesh);
     };
-    return span_between(at(span.lower), at(span.upper), count);
+    return {at(span.lower), at(span.upper)};
   }
-  if (!when.phase) return {PhaseFraction::start_of(0), PhaseFraction::end_of(count - 1)};
+  if (!when.phase) return {PhaseFraction::start_of(0), PhaseFraction::end_of(static_cast<int>(phases.size()) - 1)};
   const int index = phase_index(*when.phase, phases);
   if (!when.fraction) return {PhaseFraction::start_of(index), PhaseFraction::end_of(index)};
   const TomlBounds span = when.fraction->as_range();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/motion/contradicting_terms.hpp"
 #include "prowl/terms/own_term.hpp"
 #include "tests/support/robots.hpp"
 #include "tests/support/standing_problem.hpp"
@@ -145,6 +146,22 @@ TEST(CheckTerms, NamesTwoThatContradictEachOther) {
   EXPECT_EQ(said(0.7, {0, 0.5}, {0, 0.9}), "");
   EXPECT_EQ(said(0.75, {0, 0.7}, {0, 0.9}), "");
   EXPECT_NE(said(0.75, {0, 0.6}, {0, 0.6}), "");
+}
+
+/// At a phase transition positions are those of both phases, and forces may jump.
+TEST(CheckTerms, ComparesBothSidesOfAPhaseTransition) {
+  const auto said = [](const std::shared_ptr<const Term>& term, double low, double high, PhaseFraction from) {
+    MotionProblem problem = test::standing_problem(test::hyq());
+    problem.phases.push_back(problem.phases.front());
+    problem.terms = {test::over(test::limit_on("before", term, -9e3, low), {0, 0.5}, PhaseFraction::end_of(0)),
+                     test::over(test::limit_on("after", term, high, 9e3), from, PhaseFraction::end_of(1))};
+    return contradicting_terms(problem);
+  };
+  for (const PhaseFraction from : {PhaseFraction::end_of(0), PhaseFraction::start_of(1)}) {
+    EXPECT_NE(said(frame_position("trunk"), 0.7, 0.75, from), "");
+    EXPECT_EQ(said(contact_force("lf_foot"), 100.0, 200.0, from), "");
+  }
+  EXPECT_NE(said(contact_force("lf_foot"), 100.0, 200.0, {0, 0.9}), "");
 }
 
 TEST(CheckTerms, RefusesTheTimeOfFreeDurations) {

@@ -7,19 +7,11 @@ namespace prowl {
 
 namespace {
 
-/// Whether the term is a moment here, or a span with an interval on one side of the node inside this phase.
-bool counts_at(const DiscreteProblem& discrete, const TermUse& use, int phase, int node) {
-  if (!discrete.holds(use, phase, node)) return false;
-  const int last = discrete.mesh.phases[phase].intervals();
-  return use.is_moment() || (node > 0 && discrete.holds(use, phase, node - 1)) ||
-         (node < last && discrete.holds(use, phase, node + 1));
-}
-
 /// Whether the term is a limit at this node of a phase, and not determined by the start or by the node before.
 bool is_row_at(const DiscreteProblem& discrete, const TermUse& use, int phase, int node) {
-  if (!counts_at(discrete, use, phase, node)) return false;
+  if (!discrete.holds(use, phase, node)) return false;
   if (node > 0 || reads_loads(*use.term)) return true;
-  if (phase > 0) return !counts_at(discrete, use, phase - 1, discrete.mesh.phases[phase - 1].intervals());
+  if (phase > 0) return !use.holds_at(phase - 1, 1.0);
   const BoundaryConstraint& start = discrete.problem.start();
   return !start.fixes_configuration() || (reads_rates(*use.term) && !start.fixes_velocity());
 }
