@@ -51,8 +51,7 @@ std::vector<std::string> given_options(const CLI::App& verb) {
 /// Handles the lines printed by _verb.py.
 class Listener {
  public:
-  /// `what`: plural name of what the progress counts.
-  Listener(std::string what, bool json) : what_(std::move(what)), json_(json) {}
+  explicit Listener(bool json) : json_(json) {}
 
   void operator()(const std::string& line) {
     Json said = Json::parse(line, nullptr, false);
@@ -61,7 +60,7 @@ class Listener {
     } else if (said.contains("message")) {
       print_message(said["message"].get<std::string>() + "\n");
     } else if (said.contains("progress")) {
-      if (!bar_) bar_.emplace(what_, said["progress"][1].get<int>());
+      if (!bar_) bar_.emplace(said["progress"][2].get<std::string>(), said["progress"][1].get<int>());
       bar_->show(said["progress"][0].get<int>());
     } else if (said.contains("event")) {
       if (json_) print_bytes(said.dump() + "\n");
@@ -73,7 +72,6 @@ class Listener {
   const Json& last() const { return last_; }
 
  private:
-  std::string what_;
   bool json_;
   std::optional<ProgressBar> bar_;
   Json last_;
@@ -108,7 +106,7 @@ int run_python_verb(const CLI::App& verb, const PythonVerb& arguments) {
   }
   std::vector<std::string> command = {arguments.python, "-B", script.string(), verb.get_name()};
   for (const std::string& option : given_options(verb)) command.push_back(option);
-  Listener listener(verb.get_name() == "batch" ? "motions" : verb.get_name(), arguments.json);
+  Listener listener(arguments.json);
   const int status = run_program(command, [&listener](const std::string& line) { listener(line); });
   if (status > kSignalled) {
     print_message(fmt::format("prowl: {} was terminated by signal {}\n", arguments.python, status - kSignalled));

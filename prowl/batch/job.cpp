@@ -1,6 +1,5 @@
 #include "prowl/batch/job.hpp"
 
-#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <boost/random/normal_distribution.hpp>
@@ -8,10 +7,9 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 #include <random>
-#include <sstream>
+#include <utility>
 
 #include "prowl/batch/key_path.hpp"
-#include "prowl/error.hpp"
 
 namespace prowl {
 
@@ -24,9 +22,10 @@ std::mt19937_64 random_of(const Job& job, int index, std::size_t draw) {
   return std::mt19937_64(seed);
 }
 
+constexpr double kDeviations = 3.0;  // from the mean, at most
+
 double drawn_number(const Draw& draw, std::mt19937_64& random) {
   using Uniform = boost::random::uniform_real_distribution<double>;
-  constexpr double kDeviations = 3.0;
   switch (draw.kind) {
     case Draw::Kind::log_uniform: return std::exp(Uniform(std::log(draw.first), std::log(draw.second))(random));
     case Draw::Kind::normal: {
@@ -39,34 +38,46 @@ double drawn_number(const Draw& draw, std::mt19937_64& random) {
   }
 }
 
-std::size_t drawn_choice(const Draw& draw, std::mt19937_64& random) {
-  return boost::random::uniform_int_distribution<std::size_t>(0, draw.choices.size() - 1)(random);
-}
-
-}  // namespace
-
-std::vector<DrawnValue> drawn_values(const Job& job, int index) {
-  std::vector<DrawnValue> values;
+/// In the order of the draws.
+std::vector<Drawn> drawn_for(const Job& job, int index) {
+  std::vector<Drawn> all;
   for (std::size_t i = 0; i < job.draws.size(); ++i) {
     const Draw& draw = job.draws[i];
     std::mt19937_64 random = random_of(job, index, i);
     if (draw.kind == Draw::Kind::one_of) {
-      values.push_back(draw.values[drawn_choice(draw, random)]);
+      all.push_back(
+          draw.choices[boost::random::uniform_int_distribution<std::size_t>(0, draw.choices.size() - 1)(random)]);
     } else {
-      values.emplace_back(drawn_number(draw, random));
+      const double number = drawn_number(draw, random);
+      all.push_back({number, toml_number(number)});
     }
   }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> end_texts(const Draw& draw) {
+  std::vector<std::string> texts;
+  for (const Drawn& choice : draw.choices) texts.push_back(choice.text);
+  if (draw.kind == Draw::Kind::one_of) return texts;
+  const double away = kDeviations * draw.second;
+  const bool is_normal = draw.kind == Draw::Kind::normal;
+  return {toml_number(is_normal ? draw.first - away : draw.first),
+          toml_number(is_normal ? draw.first + away : draw.second)};
+}
+
+std::vector<DrawnValue> drawn_values(const Job& job, int index) {
+  std::vector<DrawnValue> values;
+  for (Drawn& drawn : drawn_for(job, index)) values.push_back(std::move(drawn.value));
   return values;
 }
 
 std::string drawn_task_text(const Job& job, int index) {
   toml::table task = toml::parse(job.task_file.text);
-  for (std::size_t i = 0; i < job.draws.size(); ++i) {
-    const Draw& draw = job.draws[i];
-    std::mt19937_64 random = random_of(job, index, i);
-    const std::string value = draw.kind == Draw::Kind::one_of ? draw.choices[drawn_choice(draw, random)]
-                                                              : toml_number(drawn_number(draw, random));
-    for (const std::string& key : draw.keys) set_at(task, key, value);
+  const std::vector<Drawn> drawn = drawn_for(job, index);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    for (const std::string& key : job.draws[i].keys) set_at(task, key, drawn[i].text);
   }
   return toml_text(task);
 }

@@ -77,12 +77,11 @@ void read_numbers(const TomlValue& value, Draw& draw) {
 
 void read_choices(const TomlValue& value, Draw& draw) {
   for (const TomlValue& choice : value.as_list()) {
-    draw.choices.push_back(toml_of(choice.node()));
-    draw.values.push_back(value_of(choice.node()));
+    draw.choices.push_back({value_of(choice.node()), toml_of(choice.node())});
   }
   if (draw.choices.empty()) value.fail("an empty list is not allowed; need one value or more");
-  for (const DrawnValue& one : draw.values) {
-    if (one.index() != draw.values.front().index())
+  for (const Drawn& one : draw.choices) {
+    if (one.value.index() != draw.choices.front().value.index())
       value.fail("values of several types are not allowed; need one type");
   }
 }
@@ -116,23 +115,16 @@ Draw read_draw(const TomlTable& table) {
 
 Job read_root(const SourceText& job_file, const TomlTable& root) {
   Job job{.file = job_file, .task_file = {}, .draws = {}};
-  const auto integer = [&root](const char* key, int fallback) {
-    const auto value = root.find(key);
-    return value ? value->as_integer() : fallback;
-  };
-  const auto flag = [&root](const char* key) {
-    const auto value = root.find(key);
-    return value && value->as_boolean();
-  };
   job.count = root.need("count").as_integer();
-  job.seed = static_cast<std::uint64_t>(integer("seed", 1));
-  job.shard = integer("shard", 250);
-  job.gains = flag("gains");
-  job.simulation = flag("simulation");
-  const auto grade = root.find("grade"), rate = root.find("rate_hz"), hang = root.find("hang_s");
-  if (grade && grade->as_choice("grade") == "certified") job.grade = CertificateGrade::certified;
-  job.rate = rate ? rate->as_number() : 50.0;
-  job.hang_seconds = hang ? hang->as_number() : 600.0;
+  if (const auto seed = root.find("seed")) job.seed = static_cast<std::uint64_t>(seed->as_integer());
+  if (const auto grade = root.find("grade")) {
+    job.grade = grade->as_choice("grade") == "certified" ? CertificateGrade::certified : CertificateGrade::draft;
+  }
+  if (const auto rate = root.find("rate_hz")) job.rate = rate->as_number();
+  if (const auto gains = root.find("gains")) job.gains = gains->as_boolean();
+  if (const auto simulation = root.find("simulation")) job.simulation = simulation->as_boolean();
+  if (const auto shard = root.find("shard")) job.shard = shard->as_integer();
+  if (const auto hang = root.find("hang_s")) job.hang_seconds = hang->as_number();
   for (const TomlTable& table : root.find_tables("draw")) job.draws.push_back(read_draw(table));
   for (std::size_t i = 0; i < job.draws.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -179,13 +171,7 @@ Job job_with_task(const SourceText& job_file, const SourceText& task_file) {
 void check_draws(const Job& job, const std::function<void(const SourceText& task_file)>& read_task) {
   read_task(job.task_file);
   for (const Draw& draw : job.draws) {
-    std::vector<std::string> values = draw.choices;
-    if (draw.kind == Draw::Kind::normal) {
-      values = {toml_number(draw.first - 3.0 * draw.second), toml_number(draw.first + 3.0 * draw.second)};
-    } else if (values.empty()) {
-      values = {toml_number(draw.first), toml_number(draw.second)};
-    }
-    for (const std::string& value : values) {
+    for (const std::string& value : end_texts(draw)) {
       try {
         toml::table task = toml::parse(job.task_file.text);
         for (const std::string& key : draw.keys) set_at(task, key, value);

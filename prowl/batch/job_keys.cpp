@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "prowl/batch/job_file.hpp"
 
 namespace prowl {
@@ -15,7 +17,7 @@ FileKeys make_job_file_keys() {
       {.name = "seed",
        .form = "integer",
        .range = {.lower = 0, .upper = 1e9},
-       .fallback = "1",
+       .fallback = fmt::format("{}", Job{}.seed),
        .meaning = "seed of draws and simulations: a motion depends on this file and its index alone"},
       {.name = "grade",
        .choices = {"draft", "certified"},
@@ -25,7 +27,7 @@ FileKeys make_job_file_keys() {
        .form = "number",
        .range = {.lower = 1.0, .upper = 1e4},
        .unit = "Hz",
-       .fallback = "50",
+       .fallback = fmt::format("{:g}", Job{}.rate),
        .meaning = "samples of a motion per second"},
       {.name = "gains", .form = "boolean", .fallback = "false", .meaning = "also keep the feedback gains"},
       {.name = "simulation",
@@ -35,13 +37,13 @@ FileKeys make_job_file_keys() {
       {.name = "shard",
        .form = "integer",
        .range = {.lower = 1, .upper = 1e5},
-       .fallback = "250",
+       .fallback = fmt::format("{}", Job{}.shard),
        .meaning = "motions in one file"},
       {.name = "hang_s",
        .form = "number",
        .range = positive,
        .unit = "s",
-       .fallback = "600",
+       .fallback = fmt::format("{:g}", Job{}.hang_seconds),
        .meaning = "a motion that takes longer is left out, and tried again when the job is resumed"},
       {.name = "draw", .form = "[[draw]]", .meaning = "values that differ from motion to motion"},
   };

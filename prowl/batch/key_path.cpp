@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <regex>
 #include <sstream>
-#include <variant>
-#include <vector>
 
 #include "prowl/error.hpp"
 
@@ -13,49 +11,15 @@ namespace prowl {
 
 namespace {
 
-/// A key of a table, or an index into a list.
-using Step = std::variant<std::string, std::size_t>;
-
-[[noreturn]] void refuse_path(const std::string& path) {
-  throw InputError(fmt::format("\"{}\" is no path of keys; need one such as \"goal[0].time_s\"", path));
+/// What toml::at_path() takes for a path, with one text for each place.
+bool is_path(const std::string& text) {
+  constexpr std::size_t kLongest = 300;  // the expression is recursive
+  static const std::regex path(R"([^.\[\]]+(\[(0|[1-9][0-9]{0,5})\])*(\.[^.\[\]]+(\[(0|[1-9][0-9]{0,5})\])*)*)");
+  return text.size() <= kLongest && std::regex_match(text, path);
 }
 
-std::vector<Step> steps_of(const std::string& path) {
-  std::vector<Step> steps;
-  for (std::size_t at = 0; at < path.size();) {
-    if (path[at] == '[') {
-      const std::size_t end = path.find(']', at);
-      const std::string digits = end == std::string::npos ? "" : path.substr(at + 1, end - at - 1);
-      constexpr std::size_t kMostDigits = 6;
-      const bool has_zeros = digits.size() > 1 && digits.front() == '0';  // two texts for one place
-      if (digits.empty() || has_zeros || digits.size() > kMostDigits ||
-          digits.find_first_not_of("0123456789") != std::string::npos) {
-        refuse_path(path);
-      }
-      steps.emplace_back(static_cast<std::size_t>(std::stoul(digits)));
-      at = end + 1;
-      if (at < path.size() && path[at] != '[' && path[at] != '.') refuse_path(path);
-      continue;
-    }
-    if (path[at] == '.') ++at;
-    const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
-    if (end == at) refuse_path(path);
-    steps.emplace_back(path.substr(at, end - at));
-    at = end;
-  }
-  if (steps.empty()) refuse_path(path);
-  return steps;
-}
-
-std::string text_of(const Step& step, const std::string& before) {
-  if (const auto* index = std::get_if<std::size_t>(&step)) return fmt::format("{}[{}]", before, *index);
-  return (before.empty() ? "" : before + ".") + std::get<std::string>(step);
-}
-
-toml::node* member(toml::node& node, const Step& step) {
-  if (const auto* index = std::get_if<std::size_t>(&step))
-    return node.is_array() ? node.as_array()->get(*index) : nullptr;
-  return node.is_table() ? node.as_table()->get(std::get<std::string>(step)) : nullptr;
+void need(const toml::table& root, const std::string& path) {
+  if (!toml::at_path(root, path)) throw InputError(fmt::format("the task has no {}", path));
 }
 
 }  // namespace
@@ -63,28 +27,28 @@ toml::node* member(toml::node& node, const Step& step) {
 toml::table parsed_value(const std::string& text) { return toml::parse("value = " + text); }
 
 void set_at(toml::table& root, const std::string& path, const std::string& value) {
-  const std::vector<Step> steps = steps_of(path);
-  toml::node* node = &root;
-  std::string walked;
-  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-    const std::string next = text_of(steps[i], walked);
-    node = member(*node, steps[i]);
-    if (!node) throw InputError(fmt::format("the task has no {}", next));
-    walked = next;
+  constexpr const char* kEnds = ".[";  // of a part of the path
+  if (!is_path(path)) {
+    throw InputError(fmt::format("\"{}\" is no path of keys; need one such as \"goal[0].time_s\"", path));
   }
+  for (std::size_t end = path.find_first_of(kEnds); end != std::string::npos;
+       end = path.find_first_of(kEnds, end + 1)) {
+    need(root, path.substr(0, end));
+  }
+  const std::size_t last = path.find_last_of(kEnds);
+  const std::string before = last == std::string::npos ? "" : path.substr(0, last);
+  toml::node& parent = before.empty() ? root : *toml::at_path(root, before).node();
   const toml::table parsed = parsed_value(value);
-  const toml::node& new_value = *parsed.get("value");
-  if (const auto* key = std::get_if<std::string>(&steps.back())) {
-    if (!node->is_table()) throw InputError(fmt::format("the task's {} has no keys", walked));
-    new_value.visit([&](const auto& of_type) { node->as_table()->insert_or_assign(*key, of_type); });
-    return;
-  }
-  const std::size_t index = std::get<std::size_t>(steps.back());
-  toml::array* const list = node->as_array();
-  if (!list || index >= list->size())
-    throw InputError(fmt::format("the task has no {}", text_of(steps.back(), walked)));
-  new_value.visit(
-      [&](const auto& of_type) { list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(index), of_type); });
+  parsed.get("value")->visit([&](const auto& of_type) {
+    if (!before.empty() && path[last] == '[') {
+      need(root, path);
+      toml::array& list = *parent.as_array();
+      list.replace(list.cbegin() + std::stol(path.substr(last + 1)), of_type);
+    } else {
+      if (!parent.is_table()) throw InputError(fmt::format("the task's {} has no keys", before));
+      parent.as_table()->insert_or_assign(before.empty() ? path : path.substr(last + 1), of_type);
+    }
+  });
 }
 
 std::string toml_number(double number) {

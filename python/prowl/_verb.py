@@ -3,7 +3,7 @@
 
     _verb.py VERB OPTIONS
 
-Prints one JSON object per line: {"progress": [done, total]}, {"message": text}, {"event": name, ...}, and at the end {"error":
+Prints one JSON object per line: {"progress": [done, total, plural name]}, {"message": text}, {"event": name, ...}, and at the end {"error":
 text, "kind": as in docs/command-line.md}, or {"result": object, "text": the same for people}.
 """
 
@@ -47,7 +47,7 @@ def _figures(options: argparse.Namespace) -> None:
         joint=options.joint,
         package_dirs=options.package_dir,
         allow_libraries=options.allow_libraries,
-        on_progress=lambda done, total: _say(progress=[done, total]),
+        on_progress=lambda done, total: _say(progress=[done, total, "figures"]),
     )
     text = f"{', '.join(drawn.names)}\nwritten to {drawn.folder}, each as .svg, .png and .csv\n"
     paths = [os.path.join(drawn.folder, name) for name in drawn.files]
@@ -105,7 +105,7 @@ def _batch(options: argparse.Namespace) -> None:
         if last is None and progress.dashboard:
             _say(message=f"Dask's dashboard: {progress.dashboard}")
         last = progress
-        _say(progress=[progress.done, progress.total])
+        _say(progress=[progress.done, progress.total, "motions"])
         _say(
             event="progress",
             done=progress.done,

@@ -78,6 +78,13 @@ void bind_job(nb::module_& module) {
       });
   module.def(
       "read_job",
+      [](const fs::path& path, const fs::path& shipped_tasks) {
+        const SourceText job_file = read_text_file(path);
+        return read_job_text({fs::absolute(path), job_file.text}, shipped_tasks);
+      },
+      nb::arg("path"), nb::arg("shipped_tasks"), "Reads a job file, and its task file.");
+  module.def(
+      "parse_job",
       [](const std::string& text, const fs::path& path, const fs::path& shipped_tasks) {
         return read_job_text({fs::absolute(path), text}, shipped_tasks);
       },

@@ -30,6 +30,9 @@ JOB = {
 }
 
 
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(Path(prowl.__file__).resolve().parents[1])}  #: of programs elsewhere
+
+
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
     return prowl.batch(JOB, tmp_path_factory.mktemp("batch") / "library", workers=2, progress=False)
@@ -140,14 +143,13 @@ def cluster(tmp_path):
     )  # fmt: skip
     tls = ["--tls-ca-file", files["cert.pem"], "--tls-cert", files["cert.pem"], "--tls-key", files["key.pem"]]
     dask = [sys.executable, "-m", "dask"]
-    environment = os.environ | {"PYTHONPATH": os.path.dirname(os.path.dirname(prowl.__file__))}
     programs = [
         [*dask, "scheduler", "--protocol", "tls", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
          "--scheduler-file", files["scheduler.json"], *tls],
         *[[*dask, "worker", "--scheduler-file", files["scheduler.json"], "--nthreads", "1", "--no-dashboard", *tls]] * 2,
     ]  # fmt: skip
     running = [
-        subprocess.Popen(list(map(str, program)), env=environment, stderr=subprocess.DEVNULL, cwd=tmp_path)
+        subprocess.Popen(list(map(str, program)), env=ENVIRONMENT, stderr=subprocess.DEVNULL, cwd=tmp_path)
         for program in programs
     ]
     for _ in range(300):
@@ -280,21 +282,35 @@ def test_mistakes_are_found_before_the_first_motion(tmp_path, command):
     assert failed.returncode == 2 and "job.toml:7:7: draw[0].key: " in failed.stderr
 
 
-def test_a_full_disk_keeps_what_is_complete(library, tmp_path, monkeypatch):
-    from prowl._batch import library as module
+FULL_DISK = """
+import sys
+import prowl
+copy = prowl.read_library(sys.argv[1])
+try:
+    copy.write_shard(0, copy.index, copy.samples(0))
+except prowl.FileError as error:
+    print(error)
+print(prowl.read_library(sys.argv[1]).done)
+"""
 
-    def no_space(table, path, **_):
-        Path(path).write_bytes(b"half a fi")
-        raise OSError(28, "No space left on device")
 
-    (tmp_path / "copy").mkdir()
+def test_a_full_disk_keeps_what_is_complete(library, tmp_path):
+    """On a disk of its own, which takes the right to mount one."""
     copy = prowl.batch(JOB | {"count": 6}, tmp_path / "copy", workers=1, progress=False)
-    table = copy.index
-    monkeypatch.setattr(module.pq, "write_table", no_space)
-    with pytest.raises(prowl.FileError, match="No space left on device; what is complete is kept"):
-        copy.write_shard(0, table, copy.samples(0))
+    (tmp_path / "disk").mkdir()
+    line = (
+        "mount -t tmpfs -o size=4m none disk && cp -r copy disk && { dd if=/dev/zero of=disk/rest bs=4k 2>/dev/null; "
+    )
+    line += f"{sys.executable} -c '{FULL_DISK}' disk/copy; ls -A disk/copy disk/copy/motions; }}"
+    if subprocess.run(["unshare", "-m", "true"]).returncode != 0:
+        pytest.skip("needs root, or the right to mount")
+    full = subprocess.run(
+        ["unshare", "-m", "sh", "-c", line], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True
+    )
+    said, done, listed = full.stdout.partition("\n6\n")
+    assert "No space left on device; what is complete is kept" in said, full.stderr
+    assert done and "00000.parquet" in listed and ".prowl" not in listed
     assert copy.done == 6
-    assert not list(copy.folder.rglob("*.unfinished"))
 
 
 def test_a_motion_that_ends_its_process_runs_alone_with_limited_memory(library, monkeypatch):

@@ -13,8 +13,7 @@ import sys
 from .. import _prowl
 from .._processes import die_with_parent
 from .motion import Motion
-from .tables import index_table, samples_table, to_bytes
-from .worker import Block, JobText, plan_block, why_other
+from .worker import Block, JobText, block_of, plan_block, why_other
 
 MEMORY = 4 << 30  #: [bytes] of data, without what is reserved only: many times what a worker needs
 _OUT_OF_MEMORY = 3
@@ -38,12 +37,9 @@ def plan_alone(text: JobText, index: int, job: _prowl.Job) -> Block:
             "cause": "out of memory",
             "diagnosis": f"needs more than {MEMORY >> 20} MiB",
         }
-        motion = Motion(row, None)
-        return Block(
-            index, 1, (), to_bytes(index_table(job, [motion])), to_bytes(samples_table([motion], index, job.gains))
-        )
+        return block_of(job, index, [Motion(row, None)])
     if run.returncode != 0:
-        return Block(index, 1, (index,), to_bytes(index_table(job, [])), to_bytes(samples_table([], index, job.gains)))
+        return block_of(job, index, [Motion(None, None)])
     return pickle.loads(run.stdout)
 
 

@@ -18,13 +18,8 @@ AnyJob = str | os.PathLike[str] | Mapping[str, Any]
 def read_job(job: AnyJob) -> _prowl.Job:
     """The job, and its task; raises InputError with file, line and column."""
     if isinstance(job, Mapping):
-        return _prowl.read_job(toml_text(job), Path.cwd() / "job.toml", SHARE / "tasks")
-    path = Path(job)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise _prowl.InputError(f"{path}: {error.strerror}") from None
-    return _prowl.read_job(text, path, SHARE / "tasks")
+        return _prowl.parse_job(toml_text(job), Path.cwd() / "job.toml", SHARE / "tasks")
+    return _prowl.read_job(os.fspath(job), SHARE / "tasks")
 
 
 _PARTS = 4  #: of the time after which a motion hangs: so no part that Prowl gives to one of its steps ends before it

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import fcntl
 import hashlib
+import io
 import json
 import os
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -25,31 +25,18 @@ FORMAT = 1  #: of the folder; a change of columns or file names makes the next
 _ABOUT, _INDEX = "library.json", "index.parquet"
 
 
-def _write(path: Path, write: Any) -> None:
-    """Writes a file whole or not at all, also when the power fails. Readers skip names that begin with a dot."""
-    unfinished = path.with_name(f".{path.name}.unfinished")
+def _write(folder: Path, name: str, content: bytes) -> None:
+    """Whole or not at all."""
     try:
-        write(unfinished)
-        _sync(unfinished)
-        os.replace(unfinished, path)
-        _sync(path.parent)
-    except BaseException as error:
-        unfinished.unlink(missing_ok=True)
-        if not isinstance(error, OSError):
-            raise
-        raise _prowl.FileError(f"{path}: {error.strerror or error}; what is complete is kept") from error
-
-
-def _sync(path: Path) -> None:
-    file = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(file)
-    finally:
-        os.close(file)
+        _prowl.write_files(folder, {name: content})
+    except _prowl.FileError as error:
+        raise _prowl.FileError(f"{error}; what is complete is kept") from None
 
 
 def _write_table(path: Path, table: pa.Table) -> None:
-    _write(path, lambda to: pq.write_table(table, to, compression="zstd"))
+    content = io.BytesIO()
+    pq.write_table(table, content, compression="zstd")
+    _write(path.parent, path.name, content.getvalue())
 
 
 class Library:
@@ -106,14 +93,9 @@ class Library:
         begun = {"index", "motions", "job.toml", "task.toml"}  # of one that was interrupted at once
         if folder.exists() and any(path.name not in begun and path.name[0] != "." for path in folder.iterdir()):
             raise _prowl.InputError(f"{folder}: not empty and no library; need another folder")
-        try:
-            for part in ("index", "motions"):
-                (folder / part).mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise _prowl.FileError(f"{folder}: {error.strerror}") from error
-        _write(folder / "job.toml", lambda to: to.write_bytes(text.job.encode()))
-        _write(folder / "task.toml", lambda to: to.write_bytes(text.task.encode()))
-        _write(folder / _ABOUT, lambda to: to.write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8"))
+        _write(folder, "job.toml", text.job.encode())
+        _write(folder, "task.toml", text.task.encode())
+        _write(folder, _ABOUT, (json.dumps(about, indent=1) + "\n").encode())
         return cls(folder)
 
     @contextmanager
@@ -205,7 +187,8 @@ class Library:
         """Of all files but library.json, which names paths of this machine: equal libraries have equal hashes."""
         total = hashlib.sha256()
         for path in sorted(self.folder.rglob("*")):
-            if not path.is_file() or path.name == _ABOUT or path.name.startswith("."):
+            parts = path.relative_to(self.folder).parts
+            if not path.is_file() or path.name == _ABOUT or any(part.startswith(".") for part in parts):
                 continue
             with path.open("rb") as file:
                 content = hashlib.file_digest(file, "sha256").hexdigest()

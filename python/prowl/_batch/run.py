@@ -85,13 +85,12 @@ class _Run:
         self._suspects: list[int] = []  # motions that lost their worker again and again
         self._start = time.monotonic()
         self.progress = BatchProgress(library.count, dashboard=client.dashboard_link or "")
-        for row_kept, cause in zip(*_kept_and_causes(library.index)):
-            self._count(row_kept, cause)
+        self._count(library.index)
         self.progress.done = library.done
 
-    def _count(self, kept: bool, cause: str) -> None:
-        self.progress.kept += bool(kept)
-        if cause:
+    def _count(self, index: Any) -> None:
+        self.progress.kept += sum(index["kept"].to_pylist())
+        for cause in filter(None, index["cause"].to_pylist()):
             self.progress.causes[cause] = self.progress.causes.get(cause, 0) + 1
 
     def _missing(self) -> Iterator[tuple[int, int]]:
@@ -166,8 +165,7 @@ class _Run:
         from .tables import from_bytes
 
         index = from_bytes(block.index)
-        for kept, cause in zip(*_kept_and_causes(index)):
-            self._count(kept, cause)
+        self._count(index)
         self.progress.done += index.num_rows
         self.progress.done_here += index.num_rows
         self.progress.unfinished += len(block.unfinished)
@@ -189,12 +187,6 @@ class _Run:
                 )
                 self._library.write_shard(shard, index, samples)
         self._tell(self.progress)
-
-
-def _kept_and_causes(index: Any) -> tuple[list[bool], list[str]]:
-    if index.num_rows == 0:
-        return [], []
-    return index["kept"].to_pylist(), index["cause"].to_pylist()
 
 
 def batch(

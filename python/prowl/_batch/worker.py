@@ -11,7 +11,7 @@ import pyarrow as pa
 
 from .. import _prowl
 from .job import robot_sha256
-from .motion import plan_motion
+from .motion import Motion, plan_motion
 from .tables import index_table, samples_table, to_bytes
 
 
@@ -37,6 +37,14 @@ class Block:
     unfinished: tuple[int, ...]  #: took longer than the job allows; in no table
     index: bytes
     samples: bytes
+
+
+def block_of(job: _prowl.Job, first: int, motions: list[Motion]) -> Block:
+    """Of these motions, in order from `first`."""
+    unfinished = tuple(first + i for i, motion in enumerate(motions) if motion.row is None)
+    index = index_table(job, [motion for motion in motions if motion.row is not None])
+    samples = samples_table(motions, first, job.gains)
+    return Block(first, len(motions), unfinished, to_bytes(index), to_bytes(samples))
 
 
 @functools.lru_cache(maxsize=4)
@@ -66,8 +74,4 @@ def plan_block(text: JobText, first: int, count: int) -> Block:
     if why := why_other(text):
         raise _prowl.Error(f"the worker on {socket.gethostname()} {why}; need the same as where the library began")
     job = _job(text)
-    motions = [plan_motion(job, index, text.package_dirs) for index in range(first, first + count)]
-    unfinished = tuple(first + i for i, motion in enumerate(motions) if motion.row is None)
-    done = [motion for motion in motions if motion.row is not None]
-    samples = samples_table(motions, first, job.gains)
-    return Block(first, count, unfinished, to_bytes(index_table(job, done)), to_bytes(samples))
+    return block_of(job, first, [plan_motion(job, index, text.package_dirs) for index in range(first, first + count)])
