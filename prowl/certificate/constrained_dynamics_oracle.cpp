@@ -4,7 +4,6 @@
 #include <Eigen/QR>
 #include <pinocchio/algorithm/crba.hpp>
 #include <pinocchio/algorithm/frames.hpp>
-#include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/kinematics.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 #include <utility>
@@ -47,11 +46,11 @@ struct ConstrainedDynamicsOracle::Workspace {
   }
 
   void factorise(const Eigen::VectorXd& q) {
-    // Pinocchio's library contains this instantiation; another takes half a minute to compile.
-    pinocchio::crba(pinocchio.model, data, Eigen::Ref<const Eigen::VectorXd>(q));
+    // Pinocchio's library contains this instantiation; another takes half a minute to compile. The one in world axes
+    // also computes the Jacobian of the joints.
+    pinocchio::crba(pinocchio.model, data, Eigen::Ref<const Eigen::VectorXd>(q), pinocchio::Convention::WORLD);
     mass.compute(data.M.selfadjointView<Eigen::Upper>());
     if (contacts.empty()) return;
-    pinocchio::computeJointJacobians(pinocchio.model, data, q);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       frame_jacobian.setZero();
       pinocchio::getFrameJacobian(pinocchio.model, data, pinocchio.contact_frames[contacts[i]],
@@ -88,6 +87,24 @@ struct ConstrainedDynamicsOracle::Workspace {
     return acceleration;
   }
 
+  /// Rate of v, and forces of the contacts that are held.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> solve(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                    const Eigen::VectorXd& tau) {
+    factorise(q);
+    Eigen::VectorXd x = -pinocchio::nonLinearEffects(pinocchio.model, data, q, v);
+    x.tail(tau.size()) += tau;
+    mass.matrixL().solveInPlace(x);  // b
+    Eigen::VectorXd held(A_transposed.cols());
+    if (!contacts.empty()) {
+      const Eigen::VectorXd drift = contact_acceleration(q, v, Eigen::VectorXd::Zero(v.size()));
+      auto [force, push] = forces_for(-drift - A_transposed.transpose() * x);
+      x += push;
+      held = std::move(force);
+    }
+    mass.matrixU().solveInPlace(x);
+    return {std::move(x), std::move(held)};
+  }
+
   // Forces of all contacts of the robot, zero where not held.
   Eigen::VectorXd of_robot(const Eigen::VectorXd& held_force) const {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pinocchio.contact_frames.size()));
@@ -103,25 +120,19 @@ ConstrainedDynamicsOracle::ConstrainedDynamicsOracle(const RobotModel& robot, co
 ConstrainedDynamicsOracle::ConstrainedDynamicsOracle(ConstrainedDynamicsOracle&&) noexcept = default;
 ConstrainedDynamicsOracle::~ConstrainedDynamicsOracle() = default;
 
+Eigen::VectorXd ConstrainedDynamicsOracle::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                                        const Eigen::VectorXd& tau) {
+  return workspace_->solve(q, v, tau).first;
+}
+
 ConstrainedDynamicsOracle::Motion ConstrainedDynamicsOracle::evaluate(const Eigen::VectorXd& q,
                                                                       const Eigen::VectorXd& v,
                                                                       const Eigen::VectorXd& tau) {
   Workspace& w = *workspace_;
-  w.factorise(q);
-  Eigen::VectorXd x = -pinocchio::nonLinearEffects(w.pinocchio.model, w.data, q, v);
-  x.tail(tau.size()) += tau;
-  w.mass.matrixL().solveInPlace(x);  // b
-
   Motion motion;
-  motion.force = w.of_robot(Eigen::VectorXd::Zero(w.A_transposed.cols()));
-  if (!w.contacts.empty()) {
-    const Eigen::VectorXd drift = w.contact_acceleration(q, v, Eigen::VectorXd::Zero(v.size()));
-    const auto [force, push] = w.forces_for(-drift - w.A_transposed.transpose() * x);
-    x += push;
-    motion.force = w.of_robot(force);
-  }
-  w.mass.matrixU().solveInPlace(x);
-  motion.a = std::move(x);
+  auto [a, force] = w.solve(q, v, tau);
+  motion.a = std::move(a);
+  motion.force = w.of_robot(force);
   if (!w.contacts.empty()) {
     motion.residual = w.contact_acceleration(q, v, motion.a).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   }

@@ -29,9 +29,11 @@ class ConstrainedDynamicsOracle {
     double residual = 0.0;  ///< largest entry of |J a + J̇v| [m/s²]; large if the contacts contradict each other
   };
   Motion evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
+  /// Only the acceleration of evaluate(), which is faster.
+  Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
 
   /// The part of `force` (3 per contact of the robot) without effect on the robot, J' part = 0, at the configuration of
-  /// the last evaluate(). Exactly zero if the contacts are independent.
+  /// the last evaluate() or acceleration(). Exactly zero if the contacts are independent.
   Eigen::VectorXd internal_part(const Eigen::VectorXd& force) const;
 
   struct ContactPoints {

@@ -16,7 +16,7 @@ Eigen::VectorXd residual(const MeshInterval& interval, double s, ConstrainedDyna
   const Eigen::Index nv = point.v.size();
   Eigen::VectorXd residual(2 * nv);
   residual.head(nv) = interval.rate(s) - tangent_rate(point);
-  residual.tail(nv) = point.a - dynamics.evaluate(point.q, point.v, point.tau).a;
+  residual.tail(nv) = point.a - dynamics.acceleration(point.q, point.v, point.tau);
   return residual.cwiseAbs();
 }
 

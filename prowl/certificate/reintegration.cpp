@@ -36,7 +36,7 @@ State state_rate(const State& x, const Eigen::VectorXd& tau, ConstrainedDynamics
   State rate(x.size());
   Eigen::Map<Eigen::VectorXd> q_rate(rate.data(), nv + 1), v_rate(rate.data() + nv + 1, nv);
   q_rate << turn * v.head<3>(), spin.coeffs(), v.tail(tau.size());
-  v_rate = dynamics.evaluate(q, v, tau).a;
+  v_rate = dynamics.acceleration(q, v, tau);
   return rate;
 }
 
