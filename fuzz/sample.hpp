@@ -38,4 +38,9 @@ duration_s = 0.5
 intervals = 3
 )";
 
+/// A motion of that robot.
+inline const std::string kReference =
+    "time_s,base_px_m,base_py_m,base_pz_m,base_qx,base_qy,base_qz,base_qw,q_hip_rad\n"
+    "0,0,0,0.5,0,0,0,1,0\n0.5,0,0,0.5,0,0,0,1,0.1\n";
+
 }  // namespace prowl::fuzz

@@ -6,9 +6,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace prowl;
   const SourceText task{"task.toml", fuzz::text_of(data, size)};
-  const SourceText urdf{"small.urdf", fuzz::kUrdf};
+  const StoredFiles stored{.urdf = SourceText{"small.urdf", fuzz::kUrdf},
+                           .reference = SourceText{"reference.csv", fuzz::kReference}};
   for (const std::string& robot : {fuzz::kRobot, fuzz::kQuadruped}) {
-    fuzz::takes_or_refuses([&] { parse_task(task, {"robot.toml", robot}, {}, {}, urdf); });
+    fuzz::takes_or_refuses([&] { parse_task(task, {"robot.toml", robot}, {}, {}, stored); });
   }
   return 0;
 }

@@ -76,7 +76,7 @@ Task tiny_task() {
   // Not an existing folder: only the texts are used.
   const std::filesystem::path folder = "/nonexistent/prowl-doctor";
   return parse_task({folder / "task.toml", kTask}, {folder / "robot.toml", robot + nominal}, {}, {},
-                    SourceText{folder / "tiny.urdf", urdf + "</robot>\n"});
+                    {.urdf = SourceText{folder / "tiny.urdf", urdf + "</robot>\n"}});
 }
 
 Finding check_solver(const std::string& name, const Task& task) {

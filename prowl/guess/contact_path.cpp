@@ -11,7 +11,7 @@ using Eigen::VectorXd;
 
 ContactPath::ContactPath(const DiscreteProblem& discrete, const PosturePath& posture) : discrete_(discrete) {
   const MotionProblem& problem = discrete.problem;
-  RigidBodyTerms terms(problem.robot);
+  RigidBodyTerms terms(problem.robot), in_reference(problem.robot);
   const VectorXd& start = problem.start_configuration();
   terms.update_kinematics(start);
   for (const ContactStance& stance : discrete_.schedule.stances()) {
@@ -24,8 +24,12 @@ ContactPath::ContactPath(const DiscreteProblem& discrete, const PosturePath& pos
     const double radius = problem.robot.contacts()[stance.contact].radius;
     const Span held = span(stance.first_phase, stance.last_phase);
     const VectorXd q = posture(0.5 * (held.start + held.end));
-    const Vector3d carried =
+    Vector3d carried =
         base_position(q) + base_rotation(q) * (base_rotation(start).transpose() * (at_start - base_position(start)));
+    if (problem.reference) {
+      in_reference.update_kinematics(q);
+      carried = in_reference.contact_position(stance.contact);
+    }
     footholds_.push_back(
         surface.at(nearest_in_patch(surface, surface.coordinates(stance.foothold.value_or(carried))), radius));
   }

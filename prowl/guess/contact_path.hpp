@@ -11,8 +11,8 @@ namespace prowl {
 /// Positions of the contacts in an initial guess: on their footholds, and in the air between them.
 ///
 /// A contact lands on its given foothold. Without one, its start position is carried along with the base to the middle
-/// of the stance and dropped on the surface. In the air a contact moves from foothold to foothold in an arc above both.
-/// One that never lands again, or never stood, keeps the posture of its leg.
+/// of the stance, or is that of the reference, and dropped on the surface. In the air a contact moves from foothold to
+/// foothold in an arc above both. One that never lands again, or never stood, keeps the posture of its leg.
 class ContactPath {
  public:
   ContactPath(const DiscreteProblem& discrete, const PosturePath& posture);  ///< `discrete` must outlive it

@@ -32,7 +32,7 @@ VectorXd meet(const BoundaryConstraint& constraint, const VectorXd& q) {
                                          .cwiseMin(constraint.configuration_upper));
 }
 
-PosturePath::PosturePath(const DiscreteProblem& discrete) {
+PosturePath::PosturePath(const DiscreteProblem& discrete) : reference_(discrete.problem.reference) {
   std::vector<std::size_t> in_order(discrete.boundary_nodes.size());
   std::iota(in_order.begin(), in_order.end(), 0);
   std::ranges::stable_sort(in_order, {}, [&](std::size_t c) { return discrete.boundary_nodes[c]; });
@@ -49,6 +49,7 @@ PosturePath::PosturePath(const DiscreteProblem& discrete) {
 }
 
 VectorXd PosturePath::operator()(double time) const {
+  if (reference_) return reference_->at(time);
   VectorXd q(static_cast<Eigen::Index>(curves_.size()) + 4);
   for (std::size_t i = 0; i < curves_.size(); ++i) q(static_cast<Eigen::Index>(i < 3 ? i : i + 4)) = curves_[i](time);
   q.segment<4>(3) = rotation(time).coeffs();

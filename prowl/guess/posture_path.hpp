@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <vector>
 
 #include "prowl/guess/monotone_cubic.hpp"
@@ -14,7 +15,7 @@ Eigen::VectorXd meet(const BoundaryConstraint& constraint, const Eigen::VectorXd
 
 /// Motion of base and joints from the boundary constraints alone, without contacts. Each coordinate of base position
 /// and joints has its own waypoints; one that is free at a condition continues to the next. The base turns from one
-/// prescribed rotation to the next about a fixed axis, at rest at both.
+/// prescribed rotation to the next about a fixed axis, at rest at both. With a reference, the motion is that instead.
 class PosturePath {
  public:
   explicit PosturePath(const DiscreteProblem& discrete);
@@ -35,6 +36,7 @@ class PosturePath {
 
   std::vector<MonotoneCubic> curves_;
   std::vector<Turn> turns_;
+  std::shared_ptr<const ReferenceMotion> reference_;  // null without one
 };
 
 }  // namespace prowl

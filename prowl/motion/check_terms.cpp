@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "prowl/error.hpp"
 #include "prowl/model/all_contacts.hpp"
@@ -49,6 +50,7 @@ VectorXd mixed(Eigen::Index size, double largest) {
 
 /// At the first of some moving states near the start at which the term is defined; also with contacts that all push.
 void check_derivatives(const MotionProblem& problem, const std::string& field, const TermUse& use) {
+  constexpr double kTime = std::numbers::pi / 3.0;  // [s] not where a reference has a sample, and so a kink
   const RobotModel& robot = problem.robot;
   const std::vector<int> contacts = all_contacts(robot);
   RigidBodyTerms kinematics(robot);
@@ -62,7 +64,7 @@ void check_derivatives(const MotionProblem& problem, const std::string& field, c
       kinematics.update_kinematics(q);
       std::string wrong;
       try {
-        term.evaluate({kinematics, q, v, tau, forces, 1.0});
+        term.evaluate({kinematics, q, v, tau, forces, kTime});
         wrong = wrong_derivative(robot, *use.term, term.reading());
       } catch (const NumericalError&) {
         continue;  // not defined there

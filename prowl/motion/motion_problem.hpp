@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "prowl/motion/friction_limit.hpp"
 #include "prowl/motion/margins.hpp"
 #include "prowl/motion/phase.hpp"
+#include "prowl/motion/reference_motion.hpp"
 #include "prowl/motion/term_use.hpp"
 
 namespace prowl {
@@ -77,6 +79,8 @@ struct MotionProblem {
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
   std::vector<TermUse> terms = {};  ///< costs and limits of the user's own
+  std::shared_ptr<const ReferenceMotion> reference =
+      {};  ///< where the initial guess is from; null: boundary constraints
   FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
   bool stands_at_end = false;    ///< the base does not accelerate at the end, so the last forces go on to hold it

@@ -78,6 +78,7 @@ std::string plan_report_json(const PlanRecord& record, const std::filesystem::pa
   json["task_file"].erase("text");
   json["robot_file"].erase("text");
   json["urdf"].erase("text");
+  if (record.task.reference_file) json["reference_file"].erase("text");
   if (!directory.empty()) json["directory"] = std::filesystem::absolute(directory).lexically_normal().string();
   return json_text(json);
 }

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
-constexpr int kSchemaVersion = 9;
+constexpr int kSchemaVersion = 10;
 constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
@@ -424,6 +424,16 @@ std::optional<Robustness> read_robustness(const Reader& plan, int version) {
   return robustness;
 }
 
+Json reference_to_json(const Task& task) {
+  if (!task.reference_file) return nullptr;
+  return {{"path", absolute_path(task.reference_file->path)}, {"text", task.reference_file->text}};
+}
+
+std::optional<SourceText> read_reference_file(const Reader& plan, int version) {
+  if (version < 10 || plan.is_null("reference_file")) return std::nullopt;
+  return read_text(plan.object("reference_file"));
+}
+
 }  // namespace
 
 nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
@@ -477,7 +487,8 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
           {"overrides", overrides_to_json(task.overrides)},
           {"task_file", {{"path", absolute_path(task.task_file.path)}, {"text", task.task_file.text}}},
           {"robot_file", {{"path", absolute_path(task.robot_file.path)}, {"text", task.robot_file.text}}},
-          {"urdf", {{"path", robot.urdf.string()}, {"text", robot.urdf_text}}}};
+          {"urdf", {{"path", robot.urdf.string()}, {"text", robot.urdf_text}}},
+          {"reference_file", reference_to_json(task)}};
 }
 
 PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search, const OwnTerms& own_terms) {
@@ -487,7 +498,8 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search,
 
   const SourceText urdf = read_text(plan.object("urdf"));
   PlanRecord record{.task = parse_task(read_text(plan.object("task_file")), read_text(plan.object("robot_file")),
-                                       search, read_overrides(plan.object("overrides")), urdf, own_terms),
+                                       search, read_overrides(plan.object("overrides")),
+                                       {.urdf = urdf, .reference = read_reference_file(plan, version)}, own_terms),
                     .plan = {},
                     .versions = {},
                     .feedback = {},

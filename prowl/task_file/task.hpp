@@ -36,6 +36,7 @@ struct Task {
   std::optional<double> simulated_friction = {};  ///< of all surfaces in simulations; nullopt: as planned
   SourceText task_file;
   SourceText robot_file;
+  std::optional<SourceText> reference_file = {};  ///< of [reference]; nullopt without one
   TaskOverrides overrides;
   OwnTerms own_terms = {};          ///< with which the file was read
   std::vector<int> file_intervals;  ///< of each phase, before the overrides

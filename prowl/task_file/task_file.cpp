@@ -16,6 +16,7 @@
 #include "prowl/task_file/task_gait.hpp"
 #include "prowl/task_file/task_goals.hpp"
 #include "prowl/task_file/task_payload.hpp"
+#include "prowl/task_file/task_reference.hpp"
 #include "prowl/task_file/task_robust.hpp"
 #include "prowl/task_file/task_simulation.hpp"
 #include "prowl/task_file/task_start.hpp"
@@ -230,10 +231,12 @@ struct FileProblem {
   Mesh mesh;
   bool has_intervals;
   std::vector<int> file_intervals;  ///< see Task
+  std::optional<SourceText> reference_file;
 };
 
 FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
-                         const TaskOverrides& overrides, const OwnTermReader& own_terms) {
+                         const TaskOverrides& overrides, const std::optional<SourceText>& stored_reference,
+                         const std::filesystem::path& folder, const OwnTermReader& own_terms) {
   std::vector<Surface> surfaces = read_surfaces(root);
   ContactNames names;
   for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
@@ -302,7 +305,8 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   // A mesh of the user's own may be too coarse to end the acceleration within its last interval.
   problem.stands_at_end = !has_intervals && can_stand_at_end(problem);
   read_costs(root, problem);
-  return {std::move(problem), std::move(mesh), has_intervals, std::move(file_intervals)};
+  std::optional<SourceText> reference_file = read_reference(root, folder, stored_reference, problem);
+  return {std::move(problem), std::move(mesh), has_intervals, std::move(file_intervals), std::move(reference_file)};
 }
 
 std::filesystem::path robot_path(const TomlDocument& document, const SourceText& task_file, const TomlTable& root) {
@@ -339,16 +343,17 @@ RobotModel robot_of(const TomlDocument& document, const SourceText& robot_file, 
 }
 
 Task read_document(const TomlDocument& document, const SourceText& task_file, const SourceText& robot_file,
-                   const PackageSearch& search, const TaskOverrides& overrides, const std::optional<SourceText>& urdf,
+                   const PackageSearch& search, const TaskOverrides& overrides, const StoredFiles& stored,
                    const OwnTerms& own_terms) {
   const TomlTable root = task_root(document);
   root.need("robot").as_text();
   check_overrides(task_file, overrides);
   const SolverOptions solver = read_solver(root, overrides);
   const TaskSimulation simulation = read_simulation(root);
-  auto [problem, mesh, has_intervals, file_intervals] =
-      read_problem(root, with_payloads(root, robot_of(document, robot_file, search, urdf)), robot_file, overrides,
-                   OwnTermReader(own_terms, task_file.path.parent_path()));
+  const std::filesystem::path folder = task_file.path.parent_path();
+  auto [problem, mesh, has_intervals, file_intervals, reference_file] =
+      read_problem(root, with_payloads(root, robot_of(document, robot_file, search, stored.urdf)), robot_file,
+                   overrides, stored.reference, folder, OwnTermReader(own_terms, folder));
   const auto name = root.find("name");
   problem.name = name ? name->as_name() : name_of_file(task_file.path);
   try {
@@ -371,6 +376,7 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
           .simulated_friction = simulated_friction,
           .task_file = task_file,
           .robot_file = robot_file,
+          .reference_file = std::move(reference_file),
           .overrides = overrides,
           .own_terms = own_terms,
           .file_intervals = std::move(file_intervals)};
@@ -379,10 +385,10 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
 }  // namespace
 
 Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
-                const TaskOverrides& overrides, const std::optional<SourceText>& urdf, const OwnTerms& own_terms) {
+                const TaskOverrides& overrides, const StoredFiles& stored, const OwnTerms& own_terms) {
   const TomlDocument document(task_file);
   return document.read_with(
-      [&] { return read_document(document, task_file, robot_file, search, overrides, urdf, own_terms); });
+      [&] { return read_document(document, task_file, robot_file, search, overrides, stored, own_terms); });
 }
 
 Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides,
@@ -399,7 +405,7 @@ Task read_task_text(const SourceText& task_file, const PackageSearch& search, co
   } catch (const InputError& error) {
     root.need("robot").fail(error.what());
   }
-  return parse_task(task_file, robot_file, search, overrides, std::nullopt, own_terms);
+  return parse_task(task_file, robot_file, search, overrides, {}, own_terms);
 }
 
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides,

@@ -21,11 +21,15 @@ Task read_task_file(const std::filesystem::path& path, const PackageSearch& sear
 Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides = {},
                     const OwnTerms& own_terms = {});
 
-/// The same from the texts stored in a plan. `robot_file` replaces the robot file of the task;
-/// `urdf` is used if the URDF file does not exist.
+/// Copies of files that a task needs.
+struct StoredFiles {
+  std::optional<SourceText> urdf = {};       ///< used if the URDF file does not exist
+  std::optional<SourceText> reference = {};  ///< used in place of the file of [reference]
+};
+
+/// The same from the texts stored in a plan. `robot_file` replaces the robot file of the task.
 Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
-                const TaskOverrides& overrides = {}, const std::optional<SourceText>& urdf = std::nullopt,
-                const OwnTerms& own_terms = {});
+                const TaskOverrides& overrides = {}, const StoredFiles& stored = {}, const OwnTerms& own_terms = {});
 
 /// "hyq_crouch" for tasks/hyq/crouch.toml: folder and name.
 std::string task_slug(const std::filesystem::path& task_file);

@@ -13,6 +13,7 @@
 #include "prowl/model/robot_inspection.hpp"
 #include "prowl/model/robot_model.hpp"
 #include "prowl/model/urdf/link_tree.hpp"
+#include "prowl/task_file/reference_csv.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "robot_source.hpp"
 #include "screen/robot_summary.hpp"
@@ -87,6 +88,14 @@ Array placements(const RobotModel& robot, const Argument& q_array, bool in_paren
     results.set(i, rows);
   }
   return std::move(results).array();
+}
+
+/// Times and postures of a reference.
+std::pair<Array, Array> read_reference(const RobotModel& robot, const std::filesystem::path& path) {
+  const ReferenceMotion reference = read_reference_csv(robot, read_text_file(path, kLongestReference));
+  const auto rows = static_cast<std::size_t>(reference.times.size());
+  return {new_array(reference.times), new_array({reference.q.reshaped().begin(), reference.q.reshaped().end()},
+                                                {rows, static_cast<std::size_t>(robot.nq())})};
 }
 
 /// Invalid UTF-8 becomes U+FFFD.
@@ -211,6 +220,8 @@ void bind_robot(nb::module_& module) {
       .def("link_placements", &placements, nb::arg("q"), nb::arg("in_parent") = false,
            "Placements of the links in the world, or in their parents (root: in the world), (links, 7): position [m],\n"
            "quaternion x y z w. One configuration, or N rows.")
+      .def("read_reference", &read_reference, nb::arg("path"), nb::rv_policy::reference,
+           "Times [s] and postures q (N, nq) of a CSV file for [reference] of a task, docs/retarget.md.")
       .def("warnings", &warnings, "Possible problems of the robot, one sentence each.")
       .def("frames", &contact_frame_names, "Frames of the URDF that may carry a contact.")
       .def(

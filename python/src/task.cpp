@@ -73,7 +73,7 @@ Task parse_task_text(const std::string& text, const std::filesystem::path& path,
   const PackageSearch search = package_search(package_dirs);
   const OwnTerms terms = own_terms(own, allow_libraries);
   if (!robot_file) return read_task_text(task_file, search, overrides, terms);
-  return parse_task(task_file, {robot_file->first, robot_file->second}, search, overrides, std::nullopt, terms);
+  return parse_task(task_file, {robot_file->first, robot_file->second}, search, overrides, {}, terms);
 }
 
 }  // namespace
@@ -120,6 +120,12 @@ void bind_task(nb::module_& module) {
           "text", [](const Task& task) { return task.task_file.text; }, "Text of the task file.")
       .def_prop_ro(
           "robot_text", [](const Task& task) { return task.robot_file.text; }, "Text of the robot file.")
+      .def_prop_ro(
+          "reference_text",
+          [](const Task& task) {
+            return task.reference_file ? std::optional(task.reference_file->text) : std::nullopt;
+          },
+          "Text of the file of [reference]; None without one.")
       .def_prop_ro(
           "own_terms",
           [](const Task& task) {

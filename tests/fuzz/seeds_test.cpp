@@ -38,12 +38,12 @@ const std::map<std::string, Read> kReaders = {
     {"task",
      [](const SourceText& s) {
        const bool walks = s.text.find("[gait]") != std::string::npos;
-       parse_task(s, walks ? SourceText{"robot.toml", fuzz::kQuadruped} : kRobot, {}, {}, kUrdf);
+       parse_task(s, walks ? SourceText{"robot.toml", fuzz::kQuadruped} : kRobot, {}, {}, {.urdf = kUrdf});
      }},
     {"plan", [](const SourceText& s) { plan_from_json(s, {}); }},
     {"trajectory",
      [](const SourceText& s) {
-       const Task task = parse_task({"task.toml", fuzz::kTask}, kRobot, {}, {}, kUrdf);
+       const Task task = parse_task({"task.toml", fuzz::kTask}, kRobot, {}, {}, {.urdf = kUrdf});
        trajectory_from_csv(task.problem, task.mesh, s);
      }},
     {"tracker", [](const SourceText& s) {

@@ -7,6 +7,7 @@
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/plan_folder/trajectory_csv.hpp"
 #include "prowl/task_file/task_file.hpp"
+#include "tests/support/reference_csv.hpp"
 #include "tests/support/test_files.hpp"
 
 namespace prowl {
@@ -134,7 +135,7 @@ TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
 TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
   write_plan(out_, record_);
   const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
-  EXPECT_EQ(json.at("schema_version"), 9);
+  EXPECT_EQ(json.at("schema_version"), 10);
   EXPECT_EQ(json.at("status"), "interrupted");
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ(json.at("certificate").at("passed"), true);
@@ -187,7 +188,7 @@ TEST_F(PlanDirectory, SamplesAUniformGrid) {
 TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
-  edit("plan.json", "\"schema_version\": 9", "\"schema_version\": 4294967297");
+  edit("plan.json", "\"schema_version\": 10", "\"schema_version\": 4294967297");
   EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from "))
       << "1 modulo 2^32";
   write_plan(out_, record_);
@@ -282,18 +283,23 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   EXPECT_EQ(read_plan(out_, test::test_search()).robustness->sizes.estimate_angle, 0.0);
   write_version(9, remove_sizes_since(9));
   EXPECT_EQ(message(), "out/plan.json: plan.robustness.sizes.estimate_position_m: missing");
+  const auto remove_reference = [](auto& json) { ASSERT_EQ(json.erase("reference_file"), 1u); };
+  write_version(9, remove_reference);
+  EXPECT_FALSE(read_plan(out_, test::test_search()).task.reference_file.has_value());
+  write_version(10, remove_reference);
+  EXPECT_EQ(message(), "out/plan.json: plan.reference_file: missing");
   write_version(5, [](auto& json) { json["problem"]["interpolation"] = "linear"; });
   EXPECT_EQ(message(),
             "out/plan.json: plan.problem.interpolation: \"linear\" is not allowed; need trapezoid or hermite");
-  write_version(10, [](auto&) {});
+  write_version(11, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 10, written by a newer Prowl; this one reads 1 to 9: use that Prowl, or "
+      "out/plan.json: plan.schema_version: 11, written by a newer Prowl; this one reads 1 to 10: use that Prowl, or "
       "plan again with this one");
   write_version(0, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 9: plan again with prowl plan; its "
+      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 10: plan again with prowl plan; its "
       "task_file contains the task");
   write_version(5, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
@@ -390,6 +396,20 @@ TEST_F(PlanDirectory, KeepsTheUrdf) {
             "there: Prowl then uses the copy in plan.json");
   std::filesystem::remove(urdf);
   EXPECT_EQ(read_plan(out_, {}).task.problem.robot.mass(), record_.task.problem.robot.mass());
+}
+
+TEST_F(PlanDirectory, KeepsTheReference) {
+  const auto csv = folder_.write("motion.csv", test::reference_csv({0.0, 1.0}));
+  PlanRecord record = record_;
+  const SourceText& text = record_.task.task_file;
+  record.task = parse_task(
+      {folder_.path() / "task.toml", text.text + "\n[reference]\nfile = \"motion.csv\"\njoint_position = 1\n"},
+      record_.task.robot_file, test::test_search());
+  write_plan(out_, record);
+  std::filesystem::remove(csv);
+  const Task read = read_plan(out_, test::test_search()).task;
+  EXPECT_EQ(read.reference_file->text, test::reference_csv({0.0, 1.0}));
+  EXPECT_EQ(read.problem.reference->q, record.task.problem.reference->q);
 }
 
 TEST_F(PlanDirectory, WritesPathsThatAreNotUtf8) {

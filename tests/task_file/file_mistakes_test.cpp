@@ -9,6 +9,7 @@
 #include "prowl/task_file/robot_file.hpp"
 #include "prowl/task_file/task_file.hpp"
 #include "prowl/task_file/toml/file_keys.hpp"
+#include "tests/support/reference_csv.hpp"
 #include "tests/support/test_files.hpp"
 
 namespace prowl {
@@ -44,6 +45,9 @@ const std::map<std::string, Context>& task_contexts() {
       {"gait", {robot + "[gait]\n", {"kind = \"trot\"", "strides = 1", "stride_s = 2", "stride_length_m = 0.1"}, ""}},
       {"goal", {task + "[[goal]]\n", {"phase = \"stand\"", "torque_Nm = { lf_haa_joint = 1 }"}, ""}},
       {"term", {task + "[[term]]\n", {"phase = \"stand\"", "com_m = [0, 0, 0]", "weight = 1"}, ""}},
+      {"reference", {task + "[reference]\n", {"file = \"motion.csv\"", "joint_position = 1"}, ""}},
+      {"reference.frame",
+       {task + "[reference]\nfile = \"motion.csv\"\n[[reference.frame]]\n", {"frame = \"lf_foot\"", "weight = 1"}, ""}},
       {"cost", {task + "[cost]\n", {}, ""}},
       {"cost.contact_position",
        {task + "[[cost.contact_position]]\n", {"contact = \"lf_foot\"", "reference_m = [0, 0, 0]", "weight = 1"}, ""}},
@@ -125,6 +129,7 @@ class FileMistakes : public testing::Test {
   }
   std::string task_message(const std::string& text) const {
     folder_.write("hyq.toml", test::kHyqFile);
+    folder_.write("motion.csv", test::reference_csv({0.0, 1.0}));
     const auto file = folder_.write("task.toml", text);
     return test::message_of(folder_.path(), [&] { read_task_file(file, test::test_search()); });
   }

@@ -85,6 +85,7 @@ void add_top(FileKeys& keys) {
   top.add({.name = "term",
            .form = "[[term]]",
            .meaning = "limits and costs of frames, centre of mass, joints, forces, and of one's own"});
+  top.add({.name = "reference", .form = "[reference]", .meaning = "motion that the plan follows, as a cost"});
   top.add({.name = "friction_model",
            .choices = {"cone", "pyramid"},
            .fallback = "\"cone\"",
@@ -489,6 +490,27 @@ FileKey weight(const char* name, const char* form, const char* unit, const char*
   return {.name = name, .form = form, .range = kNonnegative, .unit = unit, .fallback = "0", .meaning = meaning};
 }
 
+void add_reference(FileKeys& keys) {
+  Table reference(keys, "reference");
+  reference.add({.name = "file",
+                 .form = "string",
+                 .meaning = "CSV file of the motion, relative to this file, with columns of a plan's trajectory.csv: "
+                            "time_s, base_px_m to base_qw, q_JOINT_rad of all joints"});
+  reference.add(weight("base_position", kOneOrThree, "1/m²", "weight on the position of the base, world x y z"));
+  reference.add(weight("base_orientation", "number", "1/rad²",
+                       "weight on the orientation of the base; for an angle φ the squared deviation is 2 - 2 cos φ"));
+  reference.add(weight("joint_position", kOneOrJoints, "1/rad²", "weight on joint positions"));
+  reference.add(
+      {.name = "frame", .form = "[[reference.frame]]", .meaning = "weights on positions of frames, such as feet"});
+  Table frame(keys, "reference.frame");
+  frame.add({.name = "frame", .form = "string", .meaning = "link of the URDF"});
+  frame.add({.name = "weight",
+             .form = "number",
+             .range = kNonnegative,
+             .unit = "1/m²",
+             .meaning = "weight on the position of its origin"});
+}
+
 /// Weights common to running and terminal cost, in table `name`.
 void add_state_weights(FileKeys& keys, const std::string& name) {
   Table cost(keys, name);
@@ -674,7 +696,8 @@ void add_simulation(FileKeys& keys) {
 
 FileKeys make_task_file_keys() {
   FileKeys keys;
-  for (const auto add : {add_top, add_surface, add_payload, add_start, add_phase, add_gait, add_goal, add_term})
+  for (const auto add :
+       {add_top, add_surface, add_payload, add_start, add_phase, add_gait, add_goal, add_term, add_reference})
     add(keys);
   add_state_weights(keys, "cost");
   add_running_weights(keys);
