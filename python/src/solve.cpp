@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "interrupted.hpp"
 #include "plan_object.hpp"
+#include "prowl/error.hpp"
 #include "prowl/session/plan_task.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "signals.hpp"
@@ -58,9 +59,18 @@ class Observer : public Stop {
   Progress progress_;
 };
 
+CertificateGrade grade_of(const std::string& name) {
+  for (const CertificateGrade grade : {CertificateGrade::draft, CertificateGrade::certified}) {
+    if (name == to_string(grade)) return grade;
+  }
+  throw InputError(fmt::format("refine: '{}' is not allowed; need 'draft' or 'certified'", name));
+}
+
 nb::object solve(const Task& task, const std::string& solver, int threads, bool coarse_first,
-                 const PlanObject* start_from, bool gains, nb::object on_iteration, nb::object on_iterate) {
+                 const std::optional<std::string>& refine, const PlanObject* start_from, bool gains,
+                 nb::object on_iteration, nb::object on_iterate) {
   PlanRequest request{.solver = solver, .threads = threads, .coarse_first = coarse_first, .gains = gains};
+  if (refine) request.refine = mesh_tolerance(grade_of(*refine));
   Observer observer(std::move(on_iteration), std::move(on_iterate));
   observer.watch(request);
   if (start_from) {
@@ -113,10 +123,11 @@ void bind_solve(nb::module_& module) {
               "Motion at the nodes of the current mesh; it does not satisfy the dynamics yet.");
   module.def("solver_names", &solver_names, "Names of the solvers; the first is the default.");
   module.def("solve", &solve, nb::arg("task"), nb::kw_only(), nb::arg("solver") = solver_names().front(),
-             nb::arg("threads") = 1, nb::arg("coarse_first") = true, nb::arg("start_from").none() = nb::none(),
-             nb::arg("gains") = true, nb::arg("on_iteration") = nb::none(), nb::arg("on_iterate") = nb::none(),
+             nb::arg("threads") = 1, nb::arg("coarse_first") = true, nb::arg("refine").none() = nb::none(),
+             nb::arg("start_from").none() = nb::none(), nb::arg("gains") = true, nb::arg("on_iteration") = nb::none(),
+             nb::arg("on_iterate") = nb::none(),
              nb::sig("def solve(task: Task, *, solver: str = 'riccati', threads: int = 1, coarse_first: bool = True, "
-                     "start_from: Plan | None = None, gains: bool = True, "
+                     "refine: str | None = None, start_from: Plan | None = None, gains: bool = True, "
                      "on_iteration: collections.abc.Callable[[Progress], object] | None = None, "
                      "on_iterate: collections.abc.Callable[[Iterate], object] | None = None) -> Plan"),
              "prowl.solve without the progress bar.");

@@ -31,6 +31,7 @@ def solve(
     solver: str = "riccati",
     threads: int = 1,
     coarse_first: bool = True,
+    refine: str | None = None,
     start_from: _prowl.Plan | None = None,
     gains: bool = True,
     progress: bool | None = None,
@@ -41,7 +42,8 @@ def solve(
 
     task: a Task, the name of a shipped one ("hyq/crouch"), the path of a task file, or a dict for
     parse_task(). solver: one of solver_names(). threads: for evaluations; the result does not depend on it.
-    coarse_first: solve on coarser meshes first. start_from: an earlier plan with the same robot and phases.
+    coarse_first: solve on coarser meshes first. refine: grade
+    that the mesh is refined to, "draft" or "certified"; None: "draft" if the task has no intervals. start_from: an earlier plan with the same robot and phases.
     gains: also design feedback gains if the plan is good. progress: show iterations with tqdm; None: in a
     terminal or notebook with tqdm. on_iteration: called with a Progress after each iteration; its exceptions
     end the solve and are raised here. on_iterate: the same with an Iterate, which also contains the motion;
@@ -59,6 +61,7 @@ def solve(
             solver=solver,
             threads=threads,
             coarse_first=coarse_first,
+            refine=refine,
             start_from=start_from,
             gains=gains,
             on_iteration=tell,
