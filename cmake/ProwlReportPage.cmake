@@ -1,4 +1,4 @@
-# The page of `prowl report`, built from report/ by the Node.js of the wheels. scripts/setup fetches the packages that it takes;
+# The pages of `prowl report` and `prowl library`, built from report/ by the Node.js of the wheels. scripts/setup fetches the packages that it takes;
 # in a build by pip they are fetched here.
 get_filename_component(python_folder ${PROWL_PYTHON} DIRECTORY)
 find_program(PROWL_NODE node HINTS ${python_folder})
@@ -14,12 +14,12 @@ if(NOT PROWL_NODE OR NOT EXISTS ${report}/node_modules/.package-lock.json)
   message(WARNING "Prowl: no page for prowl report: Node.js or report/node_modules is missing; run scripts/setup.")
   return()
 endif()
-set(page ${PROJECT_BINARY_DIR}/share/prowl/report.html)
+set(pages ${PROJECT_BINARY_DIR}/share/prowl)
 file(GLOB sources CONFIGURE_DEPENDS ${report}/src/*)
-add_custom_command(OUTPUT ${page}
-  COMMAND ${PROWL_NODE} ${report}/build.mjs ${page}
+add_custom_command(OUTPUT ${pages}/report.html ${pages}/library.html
+  COMMAND ${PROWL_NODE} ${report}/build.mjs ${pages}
   DEPENDS ${sources} ${report}/build.mjs ${report}/package-lock.json
-  COMMENT "Building the page of prowl report" VERBATIM)
-add_custom_target(report_page ALL DEPENDS ${page})
+  COMMENT "Building the pages of prowl report and prowl library" VERBATIM)
+add_custom_target(report_page ALL DEPENDS ${pages}/report.html ${pages}/library.html)
 add_dependencies(prowl_cli report_page)
-install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DATADIR}/prowl COMPONENT runtime)
+install(FILES ${pages}/report.html ${pages}/library.html DESTINATION ${CMAKE_INSTALL_DATADIR}/prowl COMPONENT runtime)

@@ -41,6 +41,8 @@ void add_batch_command(CLI::App& app, int& status) {
 void add_library_command(CLI::App& app, int& status) {
   struct LibraryArguments : PythonVerb {
     int motion = 0;
+    double rate = 0.0;
+    std::string page, format;
   };
   const auto arguments = std::make_shared<LibraryArguments>();
   CLI::App* const verb = app.add_subcommand("library", "Show what a library of motions contains");
@@ -48,12 +50,26 @@ void add_library_command(CLI::App& app, int& status) {
   verb->add_option("--motion", arguments->motion, "Plan this motion again, into --out, for its report or simulation")
       ->check(CLI::NonNegativeNumber)
       ->type_name("INDEX");
-  add_folder(*verb, "--out", arguments->out, "Folder for that plan; default: LIB/../motion_INDEX");
+  verb->add_option("--page", arguments->page,
+                   "Write a page with the motions by outcome and their margins, to this file")
+      ->type_name("FILE");
+  verb->add_option("--format", arguments->format, "Write the motions for trainers, into --out: mjlab or lerobot")
+      ->check(one_of({"mjlab", "lerobot"}))
+      ->excludes("--motion")
+      ->type_name("FORMAT");
+  verb->add_option("--rate", arguments->rate, "Samples per second for --format; default: those of the library")
+      ->check(CLI::PositiveNumber)
+      ->needs("--format")
+      ->type_name("HZ");
+  add_folder(*verb, "--out", arguments->out,
+             "Folder for that plan or those files; default: LIB/../motion_INDEX, LIB/../LIB_FORMAT");
   add_python(*verb, arguments->python, "pyarrow");
   add_json(*verb, arguments->json);
   set_footer(*verb,
              {"prowl library out/crouches",
-              "prowl library out/crouches --motion 12 --out out/twelve && prowl report out/twelve"},
+              "prowl library out/crouches --motion 12 --out out/twelve && prowl report out/twelve",
+              "prowl library out/crouches --page out/crouches.html",
+              "prowl library out/crouches --format mjlab --out out/crouches_mjlab"},
              "0 if it was read, 2 bad input, 4 files.");
   verb->callback([arguments, verb, &status] { status = run_python_verb(*verb, *arguments); });
 }

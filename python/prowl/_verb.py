@@ -152,7 +152,21 @@ def _library(options: argparse.Namespace) -> None:
         plan.write(folder)
         _say(result={"directory": os.path.abspath(folder)}, text=f"{plan.summary()}written to {folder}\n")
         return
+    if options.format:
+        name = f"{os.path.basename(os.path.abspath(options.directory))}_{options.format[0]}"
+        folder = options.out or os.path.join(os.path.dirname(os.path.abspath(options.directory)), name)
+        names = library.write(
+            options.format[0],
+            folder,
+            rate=options.rate,
+            on_progress=lambda done, total: _say(progress=[done, total, "files"]),
+        )
+        _say(result={"directory": os.path.abspath(folder), "written": names}, text=f"{len(names)} files in {folder}\n")
+        return
     text, data = _summary(library)
+    if options.page:
+        library.write_page(options.page)
+        text += f"written to {options.page}\n"
     _say(result={"directory": os.path.abspath(options.directory), **data}, text=text)
 
 
@@ -174,6 +188,7 @@ def _options() -> argparse.Namespace:
     for name in ("ca", "cert", "key"):
         parser.add_argument(f"--tls-{name}")
     parser.add_argument("--motion", type=int)
+    parser.add_argument("--page")
     return parser.parse_args()
 
 
@@ -190,7 +205,8 @@ def _run(options: argparse.Namespace) -> None:
         OSError: "files",
     }
     try:
-        {"figures": _figures, "export": _export, "batch": _batch, "library": _library}[options.verb](options)
+        verbs = {"figures": _figures, "export": _export, "batch": _batch, "library": _library}
+        verbs[options.verb](options)
     except tuple(kinds) as error:
         if isinstance(error.__cause__, ModuleNotFoundError):
             raise error.__cause__ from None

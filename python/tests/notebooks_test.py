@@ -18,5 +18,5 @@ def test_it_runs(notebook, tmp_path):
     assert "# %%" in notebook.read_text(), "no cells: not a notebook for jupytext"
 
 
-def test_there_are_three():
-    assert [path.stem for path in NOTEBOOKS] == ["first_plan", "own_robot", "plan_to_controller"]
+def test_there_are_four():
+    assert [path.stem for path in NOTEBOOKS] == ["first_plan", "motion_library", "own_robot", "plan_to_controller"]

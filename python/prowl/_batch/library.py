@@ -8,14 +8,17 @@ import io
 import json
 import os
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from .. import _prowl
+from .._extras import needs
+from .._files import parse_task
 from .._runs.solve import solve
 from .job import drawn_task
 from .tables import index_schema
@@ -151,6 +154,51 @@ class Library:
         if not self.has_shard(shard):
             raise _prowl.InputError(f"{self.folder}: motion {index} is not done yet")
         return pq.read_table(self._part(shard, "motions"), filters=[("index", "=", index)])
+
+    def arrays(self, index: int) -> dict[str, np.ndarray]:
+        """Samples of a motion as arrays: t (N), q (N, nq), ...; empty if it was not kept. Raises as samples() does."""
+        table = self.samples(index)
+        arrays: dict[str, np.ndarray] = {}
+        for name in table.column_names:
+            column = table[name].combine_chunks()
+            is_list = pa.types.is_list(column.type)
+            values = column.flatten() if is_list else column
+            flat = values.to_numpy(zero_copy_only=False)
+            arrays[name] = flat.reshape(table.num_rows, -1) if is_list and table.num_rows else flat
+        return arrays
+
+    def base_task(self) -> _prowl.Task:
+        """The job's task without draws."""
+        return parse_task(self.job.base_task, folder=self.job.task_path.parent, package_dirs=self.text.package_dirs)
+
+    def write(
+        self,
+        format: str,
+        out: str | os.PathLike[str],
+        *,
+        rate: float | None = None,
+        model: str | os.PathLike[str] | None = None,
+        on_progress: Callable[[int, int], object] | None = None,
+    ) -> list[str]:
+        """Writes the motions that are kept for a trainer (docs/trainers.md), and returns the names of the files.
+
+        format: "mjlab", one npz file a motion, or "lerobot", a dataset of version 3. out: an empty or new folder. rate:
+        samples per second; None: that of the library. model: MJCF file whose order of bodies and joints mjlab uses;
+        None: that of Prowl's own. Raises InputError, FileError.
+        """
+        with needs("trainers"):
+            from .._trainers.write import write_for_trainer
+        return write_for_trainer(self, format, out, rate, model, on_progress)
+
+    def write_page(self, file: str | os.PathLike[str]) -> None:
+        """Writes a page with outcomes, drawn values and margins: one file, needs no network. Raises InputError for a
+        library without motions."""
+        from .page import library_page
+
+        if not self.done:
+            raise _prowl.InputError(f"{self.folder}: no motion is done yet")
+        path = Path(file)
+        _prowl.write_files(path.parent, {path.name: library_page(self).encode()})
 
     def plan(self, index: int) -> _prowl.Plan:
         """Plans a motion again, for its report or a simulation. Raises InputError where it would not be the same: with

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -44,6 +45,19 @@ class BatchProgress:
 
 
 @contextmanager
+def _without_main() -> Iterator[None]:
+    """New processes import the caller's script, unless it is no file: what calls batch() would call it again."""
+    main = sys.modules["__main__"]
+    kept = {name: getattr(main, name) for name in ("__file__", "__spec__") if hasattr(main, name)}
+    main.__dict__.pop("__file__", None)
+    main.__spec__ = None
+    try:
+        yield
+    finally:
+        vars(main).update(kept)
+
+
+@contextmanager
 def _client(workers: int | None, scheduler: str | None, tls: dict[str, str] | None) -> Iterator[Any]:
     """A client of the cluster, or of a new one on this machine with one process a core."""
     import distributed
@@ -70,9 +84,9 @@ def _client(workers: int | None, scheduler: str | None, tls: dict[str, str] | No
             dashboard_address="127.0.0.1:0",
             silence_logs=logging.ERROR,
         ) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
     ):
-        with distributed.Client(cluster, set_as_default=False) as client:
-            yield client
+        yield client
 
 
 class _Run:
@@ -236,7 +250,7 @@ def batch(
     library = Library.create(Path(out), text, asked)
 
     def run(tell: Callable[[BatchProgress], object] | None) -> Library:
-        with library.lock(), _client(workers, scheduler, tls) as client:
+        with _without_main(), library.lock(), _client(workers, scheduler, tls) as client:
             try:
                 _Run(client, library, tell or (lambda _: None)).run()
             finally:

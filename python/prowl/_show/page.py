@@ -16,7 +16,7 @@ from .._files import SHARE
 from .._plans import Folders, PlanOrFolder, as_plan
 
 # Installed: beside robots and tasks; build: in build/share.
-_PAGES = (SHARE / "report.html", Path(_prowl.__file__).resolve().parents[2] / "share/prowl/report.html")
+_PAGES = (SHARE, Path(_prowl.__file__).resolve().parents[2] / "share/prowl")
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def _page(
     text, told = _prowl.report_page(
         plan,
         directory=folder,
-        template_html=_template(),
+        template_html=page_template("report.html"),
         simulation_csv=csv,
         simulation_json=json,
         package_dirs=[os.fspath(path) for path in package_dirs],
@@ -106,11 +106,14 @@ def _page(
     return text, told, csv is not None
 
 
-def _template() -> str:
-    for file in _PAGES:
-        if file.is_file():
-            return file.read_text(encoding="utf-8")
-    raise _prowl.FileError(f"{_PAGES[-1]}: missing; scripts/setup builds it from report/, with the Node.js in .venv")
+def page_template(name: str) -> str:
+    """A page without data."""
+    for folder in _PAGES:
+        if (folder / name).is_file():
+            return (folder / name).read_text(encoding="utf-8")
+    raise _prowl.FileError(
+        f"{_PAGES[-1] / name}: missing; scripts/setup builds it from report/, with the Node.js in .venv"
+    )
 
 
 def _simulation_files(plan: _prowl.Plan) -> tuple[str | None, str | None]:

@@ -1,0 +1,83 @@
+"""Writes the motions of a library that are kept, for a trainer."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import _prowl
+from .bodies import order_of
+
+if TYPE_CHECKING:
+    from .._batch.library import Library
+
+FORMATS = ("mjlab", "lerobot")
+
+
+def _even(motion: dict[str, np.ndarray], rate: float, robot: _prowl.Robot) -> dict[str, np.ndarray]:
+    """Samples at multiples of the period alone: a library also has the end of each motion."""
+    period = 1.0 / rate
+    times = np.arange(int(np.floor(motion["t"][-1] / period + 1e-9)) + 1) * period
+    if len(times) <= len(motion["t"]) and np.allclose(motion["t"][: len(times)], times, rtol=0, atol=1e-9):
+        return {name: values[: len(times)] for name, values in motion.items()}
+    t = motion["t"]
+    after = np.clip(np.searchsorted(t, times, side="right"), 1, len(t) - 1)
+    share = ((times - t[after - 1]) / (t[after] - t[after - 1]))[:, None]
+    result = {"t": times}
+    for name in ("v", "tau", "f"):
+        result[name] = (1 - share) * motion[name][after - 1] + share * motion[name][after]
+    before = motion["q"][after - 1]
+    result["q"] = _prowl.integrate(before, share * _prowl.difference(before, motion["q"][after]))
+    result["in_contact"] = motion["in_contact"][np.where(share[:, 0] < 1.0, after - 1, after)]
+    return result
+
+
+def _files(library: Library, format: str, rate: float, model: str | None) -> Iterator[tuple[str, bytes]]:
+    task = library.base_task()
+    kept = library.index.filter(library.index["kept"])["index"].to_pylist()
+    if not kept:
+        raise _prowl.InputError(f"{library.folder}: no motion was kept, so none can be written")
+    motions = ((index, _even(library.arrays(index), rate, task.robot)) for index in kept)
+    if format == "mjlab":
+        from .mjlab import motion_arrays, npz
+
+        order = order_of(task.robot, task.mujoco_xml() if model is None else model)
+        for index, motion in motions:
+            yield f"motion_{index:05d}.npz", npz(motion_arrays(task.robot, motion["q"], motion["v"], rate, order))
+        return
+    from .lerobot import Dataset
+
+    dataset = Dataset(task.robot, rate, task.name)
+    for _, motion in motions:
+        yield from dataset.add(motion)
+    yield from dataset.close()
+
+
+def write_for_trainer(
+    library: Library,
+    format: str,
+    out: str | os.PathLike[str],
+    rate: float | None,
+    model: str | os.PathLike[str] | None,
+    on_progress: Callable[[int, int], object] | None,
+) -> list[str]:
+    """Names of the files. Raises InputError if the folder is not empty."""
+    if format not in FORMATS:
+        raise _prowl.InputError(f"format: {format} is not allowed; need one of {', '.join(FORMATS)}")
+    folder = Path(out)
+    if folder.exists() and any(folder.iterdir()):
+        raise _prowl.InputError(f"{folder}: not empty; need another folder")
+    text = None if model is None else Path(model).read_text(encoding="utf-8")
+    names: list[str] = []
+    total = library.kept
+    for name, content in _files(library, format, library.job.rate if rate is None else rate, text):
+        path = folder / name
+        _prowl.write_files(path.parent, {path.name: content})
+        names.append(name)
+        if on_progress is not None:
+            on_progress(min(len(names), total), total)
+    return names
