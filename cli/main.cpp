@@ -142,6 +142,7 @@ int run(int argc, char** argv) {
   add_export_command(app, status);
   add_batch_command(app, status);
   add_library_command(app, status);
+  add_retarget_command(app, status);
   add_new_command(app, status);
   add_doctor_command(app, status);
   add_completion_command(app, status);

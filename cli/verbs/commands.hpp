@@ -22,6 +22,7 @@ void add_view_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
 void add_batch_command(CLI::App& app, int& status);
 void add_library_command(CLI::App& app, int& status);
+void add_retarget_command(CLI::App& app, int& status);
 void add_new_command(CLI::App& app, int& status);
 void add_doctor_command(CLI::App& app, int& status);
 void add_completion_command(CLI::App& app, int& status);

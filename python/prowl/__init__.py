@@ -69,6 +69,7 @@ from ._prowl import (
     tube,
     versions,
 )
+from ._retarget import Deviation, Retargeted, retarget
 from ._runs.diagnose import diagnose
 from ._runs.solve import solve
 from ._runs.sweep import sweep
@@ -80,6 +81,7 @@ __all__ = [
     "Check",
     "Contact",
     "Derivatives",
+    "Deviation",
     "Diagnosis",
     "Dynamics",
     "Error",
@@ -101,6 +103,7 @@ __all__ = [
     "Program",
     "Progress",
     "Report",
+    "Retargeted",
     "Robot",
     "Simulation",
     "Surface",
@@ -126,6 +129,7 @@ __all__ = [
     "read_robot",
     "read_task",
     "report",
+    "retarget",
     "shipped_robots",
     "shipped_tasks",
     "simulate",

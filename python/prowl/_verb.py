@@ -1,4 +1,4 @@
-"""Verbs of the command that this package implements. `prowl figures`, `export`, `batch` and `library` run this file
+"""Verbs of the command that this package implements. `prowl figures`, `export`, `batch`, `library` and `retarget` run this file
 (cli/verbs/python_verb.cpp):
 
     _verb.py VERB OPTIONS
@@ -23,6 +23,7 @@ LIBRARIES = {  # of each verb: what it needs, and the extra of the wheel that br
     "export": ("numpy, mcap and mcap-ros2-support", "formats"),
     "batch": ("dask, distributed and pyarrow", "batch"),
     "library": ("pyarrow", "batch"),
+    "retarget": ("numpy", "notebook"),
 }
 
 
@@ -170,6 +171,35 @@ def _library(options: argparse.Namespace) -> None:
     _say(result={"directory": os.path.abspath(options.directory), **data}, text=text)
 
 
+def _retarget(options: argparse.Namespace) -> None:
+    import prowl
+
+    motion = options.directory
+    folder = options.out or os.path.join("out", os.path.splitext(os.path.basename(motion))[0])
+    result = prowl.retarget(
+        motion,
+        options.robot,
+        out=folder,
+        fps=options.fps,
+        slowest=options.slowest,
+        package_dirs=options.package_dir,
+    )
+    plan = os.path.join(folder, "plan")
+    _say(
+        result={
+            "directory": os.path.abspath(folder),
+            "exit_status": 0 if result.followed else 3,
+            "followed": result.followed,
+            "joint_rms_rad": result.joint_rms if result.plan.status == "converged" else None,
+            "time_scale": result.time_scale,
+            "reasons": result.reasons,
+            "flaws": result.flaws,
+            "grade": result.plan.certificate.grade,
+        },
+        text=f"{result.summary()}written to {plan}, with task.toml and reference.csv beside it\n",
+    )
+
+
 def _options() -> argparse.Namespace:
     """Options, checked and explained by the command."""
     parser = argparse.ArgumentParser()
@@ -189,6 +219,9 @@ def _options() -> argparse.Namespace:
         parser.add_argument(f"--tls-{name}")
     parser.add_argument("--motion", type=int)
     parser.add_argument("--page")
+    parser.add_argument("--robot")
+    parser.add_argument("--fps", type=float)
+    parser.add_argument("--slowest", type=float, default=1.0)
     return parser.parse_args()
 
 
@@ -205,13 +238,13 @@ def _run(options: argparse.Namespace) -> None:
         OSError: "files",
     }
     try:
-        verbs = {"figures": _figures, "export": _export, "batch": _batch, "library": _library}
+        verbs = {"figures": _figures, "export": _export, "batch": _batch, "library": _library, "retarget": _retarget}
         verbs[options.verb](options)
     except tuple(kinds) as error:
         if isinstance(error.__cause__, ModuleNotFoundError):
             raise error.__cause__ from None
         is_option = str(error).startswith(
-            ("format: ", "joint: ", "rate: ", "scheduler: ")
+            ("format: ", "joint: ", "rate: ", "scheduler: ", "slowest: ")
         )  # named like the argument of the function
         kind = next(kind for base, kind in kinds.items() if isinstance(error, base))
         _say(error=f"{'--' if is_option else ''}{error}", kind=kind)
