@@ -70,9 +70,12 @@ def body_motion(robot: _prowl.Robot, q: np.ndarray, v: np.ndarray, bodies: list[
     inverse = before[..., 3:] * np.array([-1.0, -1.0, -1.0, 1.0])
     spin = _times(after[..., 3:], inverse)
     spin = spin[..., :3] * np.sign(spin[..., 3:])
+    turns = now[..., 3:]
+    flips = np.sum(turns[1:] * turns[:-1], axis=-1, keepdims=True) < 0
+    turns[1:] *= np.cumprod(np.where(flips, -1.0, 1.0), axis=0)  # q and -q are one rotation: no jumps over time
     return BodyMotion(
         now[..., :3],
-        np.roll(now[..., 3:], 1, axis=-1),
+        np.roll(turns, 1, axis=-1),
         (after[..., :3] - before[..., :3]) / (2 * _STEP),
         spin / _STEP,
     )

@@ -23,7 +23,7 @@ def motion_arrays(robot: _prowl.Robot, q: np.ndarray, v: np.ndarray, fps: float,
         "body_ang_vel_w": bodies.angular_velocity,
     }
     return {
-        "fps": np.array([fps]),
+        "fps": np.array([round(fps) if fps == round(fps) else fps]),
         **{name: values.astype(np.float32) for name, values in arrays.items()},
         "joint_names": np.array(order.joints),
         "body_names": np.array(order.bodies),
