@@ -1,8 +1,6 @@
 """What trainers read: body poses and velocities against MuJoCo's, the dataset against the library, the environment."""
 
 import json
-import os
-import subprocess
 
 import gymnasium
 import mujoco
@@ -11,7 +9,6 @@ import pandas
 import prowl.gym
 import pyarrow.parquet as pq
 import pytest
-import tomli_w
 from gymnasium.utils.env_checker import check_env
 from prowl._trainers.bodies import body_motion, order_of
 
@@ -27,12 +24,7 @@ JOB = {
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
-    """Made by the command: Dask is in another environment."""
-    folder = tmp_path_factory.mktemp("trainers")
-    (folder / "job.toml").write_text(tomli_w.dumps(JOB))
-    command = [os.environ["PROWL_COMMAND"], "batch", "job.toml", "--out", "library", "--workers", "2", "--quiet"]
-    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    library = prowl.read_library(folder / "library")
+    library = prowl.batch(JOB, tmp_path_factory.mktemp("trainers") / "library", workers=2, progress=False)
     assert library.kept == 4
     return library
 
