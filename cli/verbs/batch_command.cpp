@@ -15,8 +15,7 @@ void add_batch_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<BatchArguments>();
   CLI::App* const verb = app.add_subcommand("batch", "Make a library of motions: many plans of one task");
   verb->add_option("job", arguments->directory, "Job file (docs/batch.md)")->required()->type_name("JOB.toml");
-  add_folder(*verb, "--out", arguments->out,
-             "Folder of the library; default: out/JOB. One that is not complete goes on where it stopped");
+  add_folder(*verb, "--out", arguments->out, "Folder of the library; default: out/JOB. An incomplete one is resumed");
   verb->add_option("--workers", arguments->workers, "Processes on this machine; default: one a core")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
@@ -34,7 +33,7 @@ void add_batch_command(CLI::App& app, int& status) {
              {"prowl batch examples/jobs/crouches.toml --out out/crouches",
               "prowl batch examples/jobs/crouches.toml --scheduler tcp://10.0.0.1:8786"},
              "0 if all motions are done, kept or failed; 2 bad input, 4 files, 6 some took longer than the job allows. "
-             "Running it again goes on.");
+             "Run it again to resume.");
   verb->callback([arguments, verb, &status] { status = run_python_verb(*verb, *arguments); });
 }
 

@@ -25,7 +25,7 @@ void add_retarget_command(CLI::App& app, int& status) {
       ->check(CLI::PositiveNumber)
       ->type_name("HZ");
   verb->add_option("--slowest", arguments->slowest,
-                   "Longest time, as a multiple of the reference's, if it cannot be followed in its own; default 1")
+                   "Longest duration to try if the reference cannot be followed, as a multiple of its own; default 1")
       ->check(CLI::Range(1.0, 10.0))
       ->type_name("FACTOR");
   add_python(*verb, arguments->python, "numpy");
@@ -34,7 +34,7 @@ void add_retarget_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl retarget examples/references/go2_bow.csv --robot go2",
               "prowl retarget motion.npz --robot robots/talos.toml --slowest 1.5 --out out/dance"},
-             "0 if a plan passes that follows the reference, 3 if none does: the reasons are printed; 2 bad input, "
+             "0 if a plan passes and follows the reference, 3 if not, with the reasons; 2 bad input, "
              "4 files.");
   verb->callback([arguments, verb, &status] { status = run_python_verb(*verb, *arguments); });
 }

@@ -11,7 +11,7 @@
 
 # %% [markdown]
 # # A library of motions
-# HyQ crouches fifty times, each time to another depth and place, on other friction. Each motion is planned and certified. It takes
+# HyQ crouches fifty times, with random depth, shift and friction. Prowl plans and checks each motion. The notebook needs
 # `pip install "prowl[batch]" pandas`. Run this file as a script, or open it as a notebook (`jupytext --to ipynb motion_library.py`).
 
 # %%
@@ -34,7 +34,7 @@ job = {
 
 # %% [markdown]
 # ## Make it
-# One process a core. A second run of this cell goes on where the first stopped, or finds all done.
+# Prowl starts one process per core. If the cell is interrupted, run it again to resume.
 
 # %%
 library = prowl.batch(job, "out/crouches")

@@ -129,7 +129,7 @@ def _batch(options: argparse.Namespace) -> None:
             on_progress=tell,
         )
     except KeyboardInterrupt:
-        _say(message="stopped; the same command goes on")
+        _say(message="stopped; repeat the command to resume")
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGINT)
         raise

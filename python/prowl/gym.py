@@ -32,9 +32,9 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
     """The robot of a library in MuJoCo, with a motion of the library as its reference.
 
     Action: (nu) in [-1, 1], moves the targets of the joints by up to 0.5 rad off the reference. Each joint is driven by
-    stiffness and damping to its target, plus the torque of the motion, within its limits. Observation: heights and
-    errors of the base, its velocity, gravity in its axes, joint positions and velocities, both minus the reference,
-    contacts that the motion has, share of the motion that is over. Reward: in (0, 1], one for the motion itself.
+    stiffness and damping to its target, plus the torque of the motion, within its limits. Observation: base
+    height; base pose error, twist and gravity, in base axes; joint positions and velocities minus the reference;
+    planned contacts; elapsed share of the motion. Reward: in (0, 1], 1 on the reference.
     """
 
     metadata = {"render_modes": []}

@@ -180,7 +180,7 @@ def test_the_scheduler_may_die(library, cluster, tmp_path):
                 if "scheduler" in process.cmdline():
                     process.kill()
 
-    with pytest.raises(prowl.Error, match="the scheduler is gone; the same command goes on"):
+    with pytest.raises(prowl.Error, match="the scheduler is gone; repeat the command to resume"):
         prowl.batch(JOB, tmp_path / "far", scheduler=address, tls=tls, progress=False, on_progress=kill)
     assert 0 < prowl.read_library(tmp_path / "far").done < 14
     assert prowl.batch(JOB, tmp_path / "far", workers=2, progress=False).sha256() == library.sha256()
@@ -222,9 +222,9 @@ def test_another_machine_is_refused(library, tmp_path):
     with pytest.raises(prowl.InputError, match="of another job, version or machine"):
         prowl.batch(JOB, tmp_path / "copy", progress=False)
     about["versions"]["Riccati"] = "1"
-    about["robot_sha256"] = "0"
+    about["files_sha256"] = "0"
     (tmp_path / "copy" / "library.json").write_text(json.dumps(about))
-    with pytest.raises(prowl.InputError, match="another robot file or URDF"):
+    with pytest.raises(prowl.InputError, match="another robot file, URDF or reference"):
         prowl.read_library(tmp_path / "copy").plan(0)
 
 
@@ -323,3 +323,53 @@ def test_a_motion_that_ends_its_process_runs_alone_with_limited_memory(library, 
     monkeypatch.setattr(alone, "MEMORY", 64 << 20)
     block = alone.plan_alone(library.text, 2, library.job)
     assert from_bytes(block.index)["cause"].to_pylist() == ["out of memory"]
+
+
+def test_a_reference_belongs_to_the_library(tmp_path):
+    robot = prowl.read_robot("go2")
+    q = ",".join(map(str, robot.nominal_configuration))
+    names = ["time_s", *(f"base_{a}" for a in ("px_m", "py_m", "pz_m", "qx", "qy", "qz", "qw"))]
+    names += [f"q_{joint}_rad" for joint in robot.joint_names]
+    reference = tmp_path / "still.csv"
+    reference.write_text(f"{','.join(names)}\n0,{q}\n1,{q}\n")
+    task = tmp_path / "still.toml"
+    task.write_text(
+        f'robot = "{robot.path}"\n[[phase]]\ncontacts = "all"\nduration_s = 1.0\n'
+        '[reference]\nfile = "still.csv"\njoint_position = 10\n[cost]\njoint_acceleration = 0.001\n'
+    )
+    job = {"task": os.fspath(task), "count": 2, "draw": [{"key": "reference.joint_position", "uniform": [1.0, 20.0]}]}
+    library = prowl.batch(job, tmp_path / "library", workers=1, progress=False)
+    assert library.kept == 2 and library.plan(1).task.reference_text == reference.read_text()
+    reference.write_text(reference.read_text().replace("\n1,", "\n1.5,"))
+    with pytest.raises(prowl.InputError, match="another robot file, URDF or reference"):
+        prowl.read_library(library.folder).plan(1)
+
+
+def test_motions_are_refined_to_the_grade_asked(tmp_path):
+    job = {"task": "go2/crouch", "count": 2, "grade": "certified"}
+    library = prowl.batch(job, tmp_path / "library", workers=2, progress=False)
+    assert library.grades() == {"certified": 2}
+
+
+def test_a_script_needs_no_guard(tmp_path):
+    (tmp_path / "script.py").write_text(
+        "import prowl\n"
+        "library = prowl.batch({'task': 'go2/crouch', 'count': 2}, 'library', workers=1, progress=False)\n"
+        "print(library.kept, 'kept', __file__)\n"
+    )
+    command = [sys.executable, "script.py"]
+    done = subprocess.run(command, cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, timeout=120)
+    assert done.stdout.split() == ["2", "kept", os.fspath(tmp_path / "script.py")], done.stdout + done.stderr
+
+
+def test_the_page_counts_outcomes(library, tmp_path):
+    library.write_page(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    start = page.index('id="prowl-data">') + len('id="prowl-data">')
+    data = json.loads(page[start : page.index("</script>", start)])
+    assert (data["asked"], data["done"], data["kept"]) == (14, 14, library.kept)
+    assert sum(outcome["count"] for outcome in data["outcomes"]) == 14
+    torque = next(margin for margin in data["margins"] if margin["name"] == "joint torque")
+    assert sum(torque["counts"]["kept"]) == library.kept and 0 < torque["edges"][-1] < 1.01
+    depth = data["draws"][0]
+    assert sum(depth["counts"]["kept"]) + sum(depth["counts"]["failed"]) == 14

@@ -39,6 +39,7 @@ assert_type(prowl.report(plan, "report.html").size, int)
 assert_type(prowl.figures(plan, out="figures").names, list[str])
 assert_type(prowl.export(plan, "npz", out="exports").files, dict[str, int])
 assert_type(prowl.sweep(plan, 8).success_rate, float)
+assert_type(prowl.retarget("motion.csv", "go2", slowest=1.5).deviations, tuple[prowl.Deviation, ...])
 height: float = plan.q[:, 2].max()
 try:
     prowl.read_task("none")
@@ -76,7 +77,7 @@ def test_notebooks_examples_and_answers_have_the_types_that_they_say(tmp_path):
         f"page_{page.stem.replace('-', '_')}": ON_A_PAGE + GIVEN + "\n".join(block.text for block in blocks)
         for page, blocks in examples().items()
     }
-    assert len(notebooks) == 3 and len(pages) >= 2
+    assert len(notebooks) == 4 and len(pages) >= 2
     result = mypy(tmp_path, answers=ANSWERS, **notebooks, **pages)
     assert result.returncode == 0, result.stdout + result.stderr
 

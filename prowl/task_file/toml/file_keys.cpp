@@ -494,8 +494,9 @@ void add_reference(FileKeys& keys) {
   Table reference(keys, "reference");
   reference.add({.name = "file",
                  .form = "string",
-                 .meaning = "CSV file of the motion, relative to this file, with columns of a plan's trajectory.csv: "
-                            "time_s, base_px_m to base_qw, q_JOINT_rad of all joints"});
+                 .meaning =
+                     "CSV file of the motion, relative to the task file, with columns of a plan's trajectory.csv: "
+                     "time_s, base_px_m to base_qw, q_JOINT_rad of all joints"});
   reference.add(weight("base_position", kOneOrThree, "1/m²", "weight on the position of the base, world x y z"));
   reference.add(weight("base_orientation", "number", "1/rad²",
                        "weight on the orientation of the base; for an angle φ the squared deviation is 2 - 2 cos φ"));

@@ -13,7 +13,7 @@ import sys
 from .. import _prowl
 from .._processes import die_with_parent
 from .motion import Motion
-from .worker import Block, JobText, block_of, plan_block, why_other
+from .worker import Block, JobText, block_of, plan_block, why_other_once
 
 MEMORY = 4 << 30  #: [bytes] of data, without what is reserved only: many times what a worker needs
 _OUT_OF_MEMORY = 3
@@ -46,7 +46,7 @@ def plan_alone(text: JobText, index: int, job: _prowl.Job) -> Block:
 def main() -> None:
     die_with_parent()
     text, index, memory = pickle.load(sys.stdin.buffer)
-    why_other(text)  # reads what is not of the motion
+    why_other_once(text)  # reads what is not of the motion
     resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
     try:
         content = pickle.dumps(plan_block(text, index, 1))

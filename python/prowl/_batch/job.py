@@ -32,7 +32,10 @@ def drawn_task(job: _prowl.Job, index: int, package_dirs: tuple[str, ...]) -> _p
     )
 
 
-def robot_sha256(job: _prowl.Job, package_dirs: tuple[str, ...]) -> str:
-    """Of the robot file and the URDF of the job's task, as this machine has them."""
-    task = parse_task(job.base_task, folder=job.task_path.parent, package_dirs=package_dirs)
-    return hashlib.sha256((task.robot_text + "\0" + task.robot.urdf_text).encode()).hexdigest()
+def files_sha256(job: _prowl.Job, package_dirs: tuple[str, ...]) -> str:
+    """Of all robot files, URDFs and references of the job, as this machine has them. Raises InputError unless the task is
+    right at both ends of every draw."""
+    total = hashlib.sha256()
+    for content in job.check(list(package_dirs)):
+        total.update(hashlib.sha256(content).digest())
+    return total.hexdigest()

@@ -24,7 +24,7 @@ from .job import drawn_task
 from .tables import index_schema
 from .worker import JobText, why_other
 
-FORMAT = 1  #: of the folder; a change of columns or file names makes the next
+FORMAT = 2  #: of the folder; a change of columns or file names makes the next
 _ABOUT, _INDEX = "library.json", "index.parquet"
 
 
@@ -67,7 +67,7 @@ class Library:
             job_path=about["job_path"],
             task=(self.folder / "task.toml").read_bytes().decode(),
             task_path=about["task_path"],
-            robot_sha256=about["robot_sha256"],
+            files_sha256=about["files_sha256"],
             versions=tuple(sorted(about["versions"].items())),
             package_dirs=tuple(about["package_dirs"]),
         )
@@ -79,7 +79,7 @@ class Library:
         about = {
             "format": FORMAT,
             "versions": dict(text.versions),
-            "robot_sha256": text.robot_sha256,
+            "files_sha256": text.files_sha256,
             "count": job.count,
             "shard": job.shard,
             "job_path": text.job_path,

@@ -134,7 +134,7 @@ class _Run:
         try:
             self._run_on_workers()
         except (CommClosedError, CancelledError) as error:
-            raise _prowl.Error("the scheduler is gone; the same command goes on") from error
+            raise _prowl.Error("the scheduler is gone; repeat the command to resume") from error
         for index in self._suspects:  # when all else is done
             self._keep(plan_alone(self._library.text, index, self._library.job))
 
@@ -216,8 +216,8 @@ def batch(
 ) -> Library:
     """Makes a library of motions: plans, certifies and optionally simulates each motion of a job (docs/batch.md).
 
-    job: the path of a job file, or a dict with its keys. out: folder of the library; one that is not complete goes on
-    where it stopped. workers: processes on this machine; default one a core. scheduler: address of a running Dask
+    job: the path of a job file, or a dict with its keys. out: folder of the library; an incomplete one is
+    resumed. workers: processes on this machine; default one a core. scheduler: address of a running Dask
     scheduler instead, with the certificates of `tls` (tls_ca_file, tls_client_cert, tls_client_key). progress: a bar
     by tqdm; None: in a terminal or notebook. on_progress: called with a BatchProgress after each block of motions.
 
@@ -227,7 +227,7 @@ def batch(
     with needs("batch"):
         import distributed  # noqa: F401
         import pyarrow  # noqa: F401
-    from .job import robot_sha256
+    from .job import files_sha256
     from .library import Library
     from .tables import index_schema
     from .worker import JobText, own_versions
@@ -236,14 +236,14 @@ def batch(
         raise _prowl.InputError(f"workers: {workers} is not allowed; need 1 or more")
     asked = read_job(job)
     folders = tuple(os.fspath(Path(folder).absolute()) for folder in package_dirs)
-    asked.check(list(folders))
+    sha256 = files_sha256(asked, folders)
     index_schema(asked)
     text = JobText(
         job=asked.text,
         job_path=os.fspath(asked.path),
         task=asked.base_task,
         task_path=os.fspath(asked.task_path),
-        robot_sha256=robot_sha256(asked, folders),
+        files_sha256=sha256,
         versions=own_versions(),
         package_dirs=folders,
     )

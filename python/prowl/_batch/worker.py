@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import pyarrow as pa
 
 from .. import _prowl
-from .job import robot_sha256
+from .job import files_sha256
 from .motion import Motion, plan_motion
 from .tables import index_table, samples_table, to_bytes
 
@@ -23,7 +23,7 @@ class JobText:
     job_path: str
     task: str
     task_path: str
-    robot_sha256: str  #: of the robot file and the URDF, which workers read themselves
+    files_sha256: str  #: of robot files, URDFs and references, which workers read themselves
     versions: tuple[tuple[str, str], ...]  #: of Prowl, its libraries and their instruction set
     package_dirs: tuple[str, ...] = ()
 
@@ -59,19 +59,25 @@ def own_versions() -> tuple[tuple[str, str], ...]:
     return tuple(sorted({**_prowl.versions(), "Arrow": pa.__version__}.items()))
 
 
-@functools.lru_cache(maxsize=4)
 def why_other(text: JobText) -> str:
     """Why this process would not make the same bytes; "" if it would."""
     own, needed = dict(own_versions()), dict(text.versions)
     names = sorted(name for name in own.keys() | needed.keys() if own.get(name) != needed.get(name))
     if names:
         return "has " + "; ".join(f"{name} {own.get(name)}, not {needed.get(name)}" for name in names)
-    return "" if robot_sha256(_job(text), text.package_dirs) == text.robot_sha256 else "has another robot file or URDF"
+    return (
+        ""
+        if files_sha256(_job(text), text.package_dirs) == text.files_sha256
+        else "has another robot file, URDF or reference"
+    )
+
+
+why_other_once = functools.lru_cache(maxsize=4)(why_other)  #: once a job
 
 
 def plan_block(text: JobText, first: int, count: int) -> Block:
     """Raises Error on a machine that would not make the same bytes, and names it."""
-    if why := why_other(text):
+    if why := why_other_once(text):
         raise _prowl.Error(f"the worker on {socket.gethostname()} {why}; need the same as where the library began")
     job = _job(text)
     return block_of(job, first, [plan_motion(job, index, text.package_dirs) for index in range(first, first + count)])

@@ -132,11 +132,11 @@ def retarget(
 
     motion: a CSV file with the columns of a plan's trajectory, one without names (x y z qx qy qz qw joints; needs
     `fps`), or an npz file of mjlab, whole_body_tracking or prowl export. robot: a Robot, robot file or shipped name.
-    out: folder for task.toml, reference.csv and the folder `plan`. slowest: longest time as a multiple of the
-    reference's; it is tried where its own time fails. friction: of the ground, z = 0.
+    out: folder for task.toml, reference.csv and the folder `plan`. slowest: longest duration to try, as a
+    multiple of the reference's, if its own fails. friction: of the ground, z = 0.
 
-    The feet that are low and slow stand; between them they swing. Raises InputError for what is no motion, with row and
-    column. Whether the reference is followed, and why not, is in the result.
+    The feet that are low and slow stand; between them they swing. Raises InputError, with row and column, if the file holds
+    no valid motion. Whether the reference is followed, and why not, is in the result.
     """
     if not 1.0 <= slowest < np.inf:
         raise _prowl.InputError(f"slowest: {slowest:g} is not allowed; need 1 or more")
