@@ -55,6 +55,7 @@ void add_library_command(CLI::App& app, int& status) {
   verb->add_option("--format", arguments->format, "Write the motions for trainers, into --out: mjlab or lerobot")
       ->check(one_of({"mjlab", "lerobot"}))
       ->excludes("--motion")
+      ->excludes("--page")
       ->type_name("FORMAT");
   verb->add_option("--rate", arguments->rate, "Samples per second for --format; default: those of the library")
       ->check(CLI::PositiveNumber)

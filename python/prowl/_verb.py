@@ -160,7 +160,7 @@ def _library(options: argparse.Namespace) -> None:
             options.format[0],
             folder,
             rate=options.rate,
-            on_progress=lambda done, total: _say(progress=[done, total, "files"]),
+            on_progress=lambda done, total: _say(progress=[done, total, "motions"]),
         )
         _say(result={"directory": os.path.abspath(folder), "written": names}, text=f"{len(names)} files in {folder}\n")
         return
@@ -257,7 +257,8 @@ def main() -> None:
     try:
         _run(options)
     except ModuleNotFoundError as error:
-        libraries, extra = LIBRARIES[options.verb]
+        writes = options.verb == "library" and options.format
+        libraries, extra = ("pandas and pyarrow", "trainers") if writes else LIBRARIES[options.verb]
         needed = f'need a Python with {libraries}: pip install "prowl[{extra}]", or --python PATH'
         _say(error=f"{sys.executable}: {error.name} is missing; {needed}", kind="input")
     except ImportError as error:  # compiled module or its libraries are missing

@@ -12,13 +12,16 @@ It needs pip install "prowl[gym]". docs/trainers.md explains observations and re
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from typing import Any
 
 import gymnasium
 import mujoco
 import numpy as np
 
+from . import _prowl
 from ._batch import read_library
+from ._trainers.write import even_samples
 
 __all__ = ["TrackMotion"]
 
@@ -26,6 +29,64 @@ _TORQUE_ERROR = 0.5  #: [rad] off its target, a joint has its largest torque
 _DAMPING_TIME = 0.025  #: [s] of damping over stiffness
 _REACH = 0.5  #: [rad] that an action of one moves a target
 _LOST_TILT, _LOST_WAY = 1.0, 0.5  #: [rad], heights of the robot
+
+
+class _Plant:
+    """A robot on its ground in MuJoCo, with a drive at each joint: force = stiffness (control - q) - damping v, within
+    the limit of the motor."""
+
+    def __init__(self, task: _prowl.Task) -> None:
+        robot = task.robot
+        self.model = mujoco.MjModel.from_xml_string(task.mujoco_xml())
+        self.data = mujoco.MjData(self.model)
+        self.height = float(robot.nominal_configuration[2])
+        joints = [mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in robot.joint_names]
+        self.q, self.v = self.model.jnt_qposadr[joints], self.model.jnt_dofadr[joints]
+        motors = {int(self.model.actuator_trnid[i, 0]): i for i in range(self.model.nu)}
+        self.motors = np.array([motors[joint] for joint in joints])
+        limit = np.array(robot.torque_limit)
+        finite = np.isfinite(limit)
+        limit[~finite] = 10.0 * limit[finite].max() if finite.any() else robot.mass * 9.81 * self.height
+        self.stiffness = limit / _TORQUE_ERROR
+        self.damping = _DAMPING_TIME * self.stiffness
+        self._drive(limit)
+
+    def _drive(self, limit: np.ndarray) -> None:
+        """Turns motors into drives."""
+        model, motors = self.model, self.motors
+        model.actuator_gaintype[motors] = mujoco.mjtGain.mjGAIN_FIXED
+        model.actuator_biastype[motors] = mujoco.mjtBias.mjBIAS_AFFINE
+        model.actuator_gainprm[motors, 0] = self.stiffness
+        model.actuator_biasprm[motors, 1] = -self.stiffness
+        model.actuator_biasprm[motors, 2] = -self.damping
+        model.actuator_ctrllimited[motors] = 0
+        model.actuator_forcelimited[motors] = 1
+        model.actuator_forcerange[motors, 0] = -limit
+        model.actuator_forcerange[motors, 1] = limit
+
+    def place(self, q: np.ndarray, v: np.ndarray) -> None:
+        """Puts the robot into a state of Prowl."""
+        mujoco.mj_resetData(self.model, self.data)
+        qpos, qvel = self.data.qpos, self.data.qvel
+        qpos[:3], qpos[3], qpos[4:7], qpos[self.q] = q[:3], q[6], q[3:6], q[7:]
+        mujoco.mju_rotVecQuat(qvel[:3], np.ascontiguousarray(v[:3]), np.ascontiguousarray(qpos[3:7]))
+        qvel[3:6], qvel[self.v] = v[3:6], v[6:]
+        mujoco.mj_forward(self.model, self.data)
+
+
+@dataclass(frozen=True)
+class _Followed:
+    """A motion at the times of the actions, and where it takes place."""
+
+    plant: _Plant
+    q: np.ndarray
+    v: np.ndarray
+    targets: np.ndarray  #: of the joints, at which the drives give the torques of the motion
+    in_contact: np.ndarray
+
+    @property
+    def last(self) -> int:
+        return len(self.q) - 1
 
 
 class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
@@ -50,61 +111,36 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
         """rate: of actions [Hz]. noise: standard deviation of the start's joints [rad]. motions: indices; None: all that
         are kept."""
         self.library = read_library(library)
-        task = self.library.base_task()
-        self._robot = robot = task.robot
         kept = self.library.index.filter(self.library.index["kept"])["index"].to_pylist()
         self._indices = kept if motions is None else list(motions)
-        if not self._indices:
-            raise ValueError(f"{self.library.folder}: no motion was kept")
-        self._motions: dict[int, dict[str, np.ndarray]] = {}
-        self._model = mujoco.MjModel.from_xml_string(task.mujoco_xml())
-        self._data = mujoco.MjData(self._model)
-        self._steps = max(1, round(1.0 / (rate * self._model.opt.timestep)))
-        self._period = self._steps * self._model.opt.timestep
-        self._noise = noise
-        self._height = float(robot.nominal_configuration[2])
-        self._find_joints()
-        self._drive()
-        entries = 1 + 3 + 3 + 6 + 3 + 2 * robot.nu + len(robot.contacts) + 1
+        if not self._indices or not set(self._indices) <= set(kept):
+            raise ValueError(f"{self.library.folder}: need motions that were kept, one or more")
+        self._rate, self._noise = rate, noise
+        self._plants: dict[str, _Plant] = {}
+        self._motions: dict[int, _Followed] = {}
+        self._robot = self.library.robot(self._indices[0])
+        entries = 1 + 3 + 3 + 6 + 3 + 2 * self._robot.nu + len(self._robot.contacts) + 1
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (entries,), np.float64)
-        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (robot.nu,), np.float32)
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (self._robot.nu,), np.float32)
 
-    def _find_joints(self) -> None:
-        """Where MuJoCo has the robot's joints and their motors."""
-        model = self._model
-        joints = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in self._robot.joint_names]
-        self._q, self._v = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
-        motors = {int(model.actuator_trnid[i, 0]): i for i in range(model.nu)}
-        self._motors = np.array([motors[joint] for joint in joints])
-
-    def _drive(self) -> None:
-        """Turns motors into drives: force = stiffness (control - q) - damping v, within the limit of the motor."""
-        model = self._model
-        limit = np.array(self._robot.torque_limit)
-        finite = np.isfinite(limit)
-        limit[~finite] = 10.0 * limit[finite].max() if finite.any() else self._robot.mass * 9.81 * self._height
-        self._stiffness = limit / _TORQUE_ERROR
-        self._damping = _DAMPING_TIME * self._stiffness
-        model.actuator_gaintype[self._motors] = mujoco.mjtGain.mjGAIN_FIXED
-        model.actuator_biastype[self._motors] = mujoco.mjtBias.mjBIAS_AFFINE
-        model.actuator_gainprm[self._motors, 0] = self._stiffness
-        model.actuator_biasprm[self._motors, 1] = -self._stiffness
-        model.actuator_biasprm[self._motors, 2] = -self._damping
-        model.actuator_ctrllimited[self._motors] = 0
-        model.actuator_forcelimited[self._motors] = 1
-        model.actuator_forcerange[self._motors, 0] = -limit
-        model.actuator_forcerange[self._motors, 1] = limit
-
-    def _motion(self, index: int) -> dict[str, np.ndarray]:
-        """At the times of the actions."""
+    def _motion(self, index: int) -> _Followed:
+        """With the ground, payload and robot that were drawn for it."""
         if index not in self._motions:
-            arrays = self.library.arrays(index)
-            times = np.arange(int(arrays["t"][-1] / self._period) + 1) * self._period
-            at = np.minimum(np.searchsorted(arrays["t"], times - 1e-9), len(arrays["t"]) - 1)
-            motion = {name: arrays[name][at] for name in ("q", "v", "tau", "in_contact")}
-            targets = motion["q"][:, 7:] + (motion["tau"] + self._damping * motion["v"][:, 6:]) / self._stiffness
-            self._motions[index] = motion | {"targets": targets, "flags": motion["in_contact"].astype(float)}
+            task = self.library.task(index)
+            if list(task.robot.joint_names) != list(self._robot.joint_names):
+                raise ValueError(f"{self.library.folder}: motions of robots with other joints; choose with motions=")
+            xml = task.mujoco_xml()
+            plant = self._plants.setdefault(xml, _Plant(task)) if xml not in self._plants else self._plants[xml]
+            period = self._steps(plant.model) * plant.model.opt.timestep
+            motion = even_samples(self.library.arrays(index), 1.0 / period, task.robot)
+            targets = motion["q"][:, 7:] + (motion["tau"] + plant.damping * motion["v"][:, 6:]) / plant.stiffness
+            flags = motion["in_contact"].astype(float)
+            self._motions[index] = _Followed(plant, motion["q"], motion["v"], targets, flags)
         return self._motions[index]
+
+    def _steps(self, model: mujoco.MjModel) -> int:
+        """Of MuJoCo, in one of the environment."""
+        return max(1, round(1.0 / (self._rate * model.opt.timestep)))
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -114,38 +150,33 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
         index = (options or {}).get("motion")
         if index is None:
             index = self._indices[int(self.np_random.integers(len(self._indices)))]
-        self._now, self._index = self._motion(index), index
-        self._last = len(self._now["q"]) - 1
-        self._k = 0
-        mujoco.mj_resetData(self._model, self._data)
-        q, v = self._now["q"][0], self._now["v"][0]
-        qpos, qvel = self._data.qpos, self._data.qvel
-        qpos[:3], qpos[3], qpos[4:7] = q[:3], q[6], q[3:6]
-        qpos[self._q] = q[7:] + self._noise * self.np_random.standard_normal(self._robot.nu)
-        mujoco.mju_rotVecQuat(qvel[:3], np.ascontiguousarray(v[:3]), np.ascontiguousarray(qpos[3:7]))
-        qvel[3:6], qvel[self._v] = v[3:6], v[6:]
-        mujoco.mj_forward(self._model, self._data)
+        if index not in self._indices:
+            raise ValueError(f"motion: {index} is none of those of this environment")
+        self._now, self._index, self._k = self._motion(index), index, 0
+        start = self._now.q[0].copy()
+        start[7:] += self._noise * self.np_random.standard_normal(self._robot.nu)
+        self._now.plant.place(start, self._now.v[0])
         observation, _ = self._observe()
         return observation, {"motion": index}
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """One period of actions."""
-        targets = self._now["targets"][self._k] + _REACH * np.clip(action, -1.0, 1.0)
-        self._data.ctrl[self._motors] = targets
-        mujoco.mj_step(self._model, self._data, self._steps)
-        self._k += 1
+        now, plant = self._now, self._now.plant
+        plant.data.ctrl[plant.motors] = now.targets[self._k] + _REACH * np.clip(action, -1.0, 1.0)
+        mujoco.mj_step(plant.model, plant.data, self._steps(plant.model))
+        self._k = min(self._k + 1, now.last)
         observation, (way, tilt, joints, rates) = self._observe()
         reward = (
             0.5 * np.exp(-20.0 * joints) + 0.3 * np.exp(-20.0 * (way * way + tilt * tilt)) + 0.2 * np.exp(-0.1 * rates)
         )
         terminated = bool(tilt > _LOST_TILT or way > _LOST_WAY)
-        truncated = self._k >= self._last
+        truncated = self._k >= now.last
         return observation, float(reward), terminated, truncated, {"motion": self._index}
 
     def _observe(self) -> tuple[np.ndarray, tuple[float, float, float, float]]:
         """Also errors: of the base in heights and rad, mean squares of those of the joints."""
-        k, data = self._k, self._data
-        q, v = self._now["q"][k], self._now["v"][k]
+        k, now, plant = self._k, self._now, self._now.plant
+        data, q, v = plant.data, now.q[k], now.v[k]
         w, x, y, z = data.qpos[3:7]
         axes = np.array(
             [
@@ -154,7 +185,7 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
                 [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
             ]
         )
-        off = (q[:3] - data.qpos[:3]) @ axes / self._height
+        off = (q[:3] - data.qpos[:3]) @ axes / plant.height
         # The vector part of the turn from the base to its reference.
         rx, ry, rz, rw = q[3], q[4], q[5], q[6]
         turn = np.array(
@@ -164,10 +195,11 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
                 w * rz - x * ry + y * rx - z * rw,
             ]
         )
-        joints, rates = data.qpos[self._q] - q[7:], data.qvel[self._v] - v[6:]
+        turn *= 1.0 if w * rw + x * rx + y * ry + z * rz >= 0.0 else -1.0  # q and -q are one rotation
+        joints, rates = data.qpos[plant.q] - q[7:], data.qvel[plant.v] - v[6:]
         observation = np.concatenate(
             (
-                [data.qpos[2] / self._height],
+                [data.qpos[2] / plant.height],
                 off,
                 turn,
                 data.qvel[:3] @ axes,
@@ -175,8 +207,8 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
                 -axes[2],
                 joints,
                 rates,
-                self._now["flags"][k],
-                [k / self._last],
+                now.in_contact[k],
+                [k / max(now.last, 1)],
             )
         )
         tilt = 2.0 * float(np.arcsin(min(1.0, float(np.sqrt(turn @ turn)))))

@@ -6,7 +6,6 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include <set>
 #include <string>
 
 #include "bindings.hpp"
@@ -72,20 +71,21 @@ void bind_job(nb::module_& module) {
           "check",
           [](const Job& job, const std::vector<std::string>& package_dirs) {
             const PackageSearch search = package_search(package_dirs);
-            std::set<std::string> texts;
+            std::vector<std::string> texts;
             check_draws(job, [&](const SourceText& task_file) {
               const Task task = read_task_text(task_file, search);
-              texts.insert({task.robot_file.text, task.problem.robot.description().urdf_text});
-              if (task.reference_file) texts.insert(task.reference_file->text);
+              texts.push_back(task.robot_file.text);
+              texts.push_back(task.problem.robot.description().urdf_text);
+              texts.push_back(task.reference_file ? task.reference_file->text : "");
             });
             std::vector<nb::bytes> files;
             for (const std::string& text : texts) files.emplace_back(text.data(), text.size());
             return files;
           },
           nb::arg("package_dirs") = std::vector<std::string>{},
-          "Raises InputError unless the task is right at both ends of every draw. Returns the different files that "
+          "Raises InputError unless the task is right at both ends of every draw. Returns what the files say that "
           "these\n"
-          "tasks name: of robots, their URDFs, references.")
+          "tasks name, in their order: robot, URDF, reference")
       .def("__repr__", [](const Job& job) {
         return fmt::format("<prowl.Job {}: {} motions, {} draws>", job.file.path.string(), job.count, job.draws.size());
       });

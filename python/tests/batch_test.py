@@ -349,6 +349,8 @@ def test_motions_are_refined_to_the_grade_asked(tmp_path):
     job = {"task": "go2/crouch", "count": 2, "grade": "certified"}
     library = prowl.batch(job, tmp_path / "library", workers=2, progress=False)
     assert library.grades() == {"certified": 2}
+    plan = library.plan(1)
+    assert plan.certificate.grade == "certified" and plan.cost == library.index["cost"][1].as_py()
 
 
 def test_a_script_needs_no_guard(tmp_path):

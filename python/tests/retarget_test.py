@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from prowl._retarget.reference import Reference
-from prowl._retarget.stances import find_feet, spans
+from prowl._retarget.stances import Feet, find_feet, spans
 
 import prowl
 
@@ -126,12 +126,27 @@ def test_files_that_are_no_motion_are_refused_with_row_and_column(tmp_path):
         prowl.retarget(tmp_path / "rows.csv", "go2", fps=50)
     with pytest.raises(prowl.InputError, match="no such file"):
         prowl.retarget(tmp_path / "none.csv", "go2")
-    (tmp_path / "text.npz").write_text("no zip")
-    with pytest.raises(prowl.InputError, match="no npz file"):
-        prowl.retarget(tmp_path / "text.npz", "go2")
-    np.savez(tmp_path / "empty.npz", fps=50)
-    with pytest.raises(prowl.InputError, match="no arrays joint_pos"):
-        prowl.retarget(tmp_path / "empty.npz", "go2")
+    q = np.tile(prowl.read_robot("go2").nominal_configuration, (4, 1))
+    whole = {"fps": [50], "joint_pos": q[:, 7:], "body_pos_w": q[:, None, :3], "body_quat_w": q[:, None, [6, 3, 4, 5]]}
+    for arrays, message in (
+        ({"fps": 50}, "no arrays joint_pos"),
+        ({"t": [0.0, 1.0, 0.5, 2.0], "q": q}, "row 3, time: 0.5 is not allowed"),
+        ({"t": [0.0, np.nan, 0.5, 2.0], "q": q}, "row 2, time: nan is not allowed"),
+        ({"t": [0.0, 1.0], "q": q}, r"q of shape \(4, 19\) is not allowed; need numbers, 2 x 19"),
+        ({"t": np.zeros(0), "q": q[:0]}, "0 samples; need two"),
+        (whole | {"fps": [0]}, "fps"),
+        (whole | {"body_quat_w": q[:, 3:7]}, "body_quat_w of shape"),
+        (whole | {"joint_pos": q[:, 8:]}, "joint_pos of shape"),
+        (whole | {"joint_names": ["a"] * 12}, "joints are not those of Go2"),
+    ):
+        np.savez(tmp_path / "bad.npz", **arrays)
+        with pytest.raises(prowl.InputError, match=message):
+            prowl.retarget(tmp_path / "bad.npz", "go2")
+    content = (tmp_path / "bad.npz").read_bytes()
+    for broken in (b"no zip", content[:200], b""):
+        (tmp_path / "bad.npz").write_bytes(broken)
+        with pytest.raises(prowl.InputError, match="no npz file"):
+            prowl.retarget(tmp_path / "bad.npz", "go2")
     with pytest.raises(prowl.InputError, match="slowest: 0.5 is not allowed"):
         prowl.retarget(good, "go2", slowest=0.5)
 
@@ -148,3 +163,49 @@ def test_velocities_are_those_of_a_steady_motion():
         linear = v[:3] + 2 * w * np.cross(u, v[:3]) + 2 * np.cross(u, np.cross(u, v[:3]))
         q.append(prowl.integrate(q[-1], 0.01 * np.concatenate([linear, v[3:]])))
     assert np.allclose(Reference(t, np.array(q)).velocities()[2], v, atol=0.01)
+
+
+def test_ground_that_is_centimetres_off_is_put_right_and_more_refused(tmp_path):
+    path = write(CASE["go2_bow"], tmp_path)
+    rows = np.loadtxt(path, delimiter=",", skiprows=1)[:, 1:]
+    for height, message in ((0.03, None), (-0.03, None), (0.3, "the lowest feet are at 30.0 cm")):
+        moved = rows.copy()
+        moved[:, 2] += height
+        np.savetxt(tmp_path / "moved.csv", moved, delimiter=",")
+        if message is None:
+            done = prowl.retarget(tmp_path / "moved.csv", "go2", fps=50)
+            assert done.followed and done.joint_rms < 0.01
+            continue
+        with pytest.raises(prowl.InputError, match=message):
+            prowl.retarget(tmp_path / "moved.csv", "go2", fps=50)
+
+
+def test_a_first_posture_beyond_the_joints_is_told_as_a_flaw(tmp_path):
+    robot = prowl.read_robot("go2")
+    q = np.array(robot.nominal_configuration)
+    knee = robot.joint_names.index("FL_calf_joint")
+    height = prowl.Dynamics(robot).contact_positions(q)[0, 2]
+    for joint in ("FL", "FR", "RL", "RR"):
+        q[7 + robot.joint_names.index(f"{joint}_calf_joint")] = robot.position_upper[knee] + 0.04
+        q[7 + robot.joint_names.index(f"{joint}_thigh_joint")] = 0.45
+    q[2] += height - prowl.Dynamics(robot).contact_positions(q)[:, 2].min()
+    np.savetxt(tmp_path / "straight.csv", np.tile(q, (40, 1)), delimiter=",")
+    done = prowl.retarget(tmp_path / "straight.csv", "go2", fps=50)
+    assert done.plan.good and any(flaw.startswith("FL_calf_joint: up to 0.04 rad beyond") for flaw in done.flaws)
+
+
+def test_feet_that_land_one_after_the_other_begin_one_phase():
+    t = np.arange(40) / 50
+    stands = np.ones((40, 4), dtype=bool)
+    for foot, landing in enumerate((10, 11, 12, 13)):
+        stands[:landing, foot] = False
+    stands[0] = True
+    found = spans(Feet([[str(i)] for i in range(4)], 0.0, np.zeros((40, 4, 3)), stands), t)
+    assert [(span.first, span.last, sum(span.stands)) for span in found] == [(0, 10, 0), (10, 39, 4)]
+
+
+def test_nothing_is_left_of_a_try_that_fails(tmp_path):
+    good = write(CASE["go2_bow"], tmp_path)
+    with pytest.raises(prowl.InputError):
+        prowl.retarget(change(good, tmp_path / "bad.csv", 5, 9, "nan"), "go2", out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()

@@ -44,14 +44,14 @@ class Replay:
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = mujoco.MjData(self.model)
 
-    def set(self, base, joint_pos, joint_vel, twist, names):
+    def set(self, robot, q, v):
+        """A state of Prowl: the base's twist is in its axes."""
         data, model = self.data, self.model
-        data.qpos[:7] = base
-        data.qvel[:3] = twist[:3]
-        # MuJoCo has the angular velocity of a free joint in the axes of the body.
-        mujoco.mju_rotVecQuat(data.qvel[3:6], twist[3:], base[3:] * np.array([1, -1, -1, -1]))
-        for name, position, velocity in zip(names, joint_pos, joint_vel):
-            joint = model.joint(str(name)).id
+        data.qpos[:7] = [*q[:3], q[6], *q[3:6]]
+        mujoco.mju_rotVecQuat(data.qvel[:3], np.ascontiguousarray(v[:3]), np.ascontiguousarray(data.qpos[3:7]))
+        data.qvel[3:6] = v[3:6]
+        for name, position, velocity in zip(robot.joint_names, q[7:], v[6:], strict=True):
+            joint = model.joint(name).id
             data.qpos[model.jnt_qposadr[joint]] = position
             data.qvel[model.jnt_dofadr[joint]] = velocity
         mujoco.mj_forward(model, data)
@@ -62,14 +62,12 @@ class Replay:
         return self.data.xpos[body], self.data.xquat[body], velocity[3:], velocity[:3]
 
 
-def largest_errors(replay, arrays, bodies, rows):
-    """Of position, orientation, linear and angular velocity over some samples; bodies: those of MuJoCo for each of the
-    arrays'."""
+def largest_errors(replay, robot, states, arrays, bodies):
+    """Of position, orientation, linear and angular velocity over some states: sample, q, v. bodies: those of MuJoCo for
+    each of the arrays'."""
     errors = np.zeros(4)
-    for k in rows:
-        base = np.concatenate([arrays["body_pos_w"][k, 0], arrays["body_quat_w"][k, 0]]).astype(float)
-        twist = np.concatenate([arrays["body_lin_vel_w"][k, 0], arrays["body_ang_vel_w"][k, 0]]).astype(float)
-        replay.set(base, arrays["joint_pos"][k], arrays["joint_vel"][k], twist, arrays["joint_names"])
+    for k, q, v in states:
+        replay.set(robot, q, v)
         for i, body in enumerate(bodies):
             position, turn, linear, angular = replay.body(body)
             errors = np.maximum(
@@ -85,18 +83,22 @@ def largest_errors(replay, arrays, bodies, rows):
 
 
 def test_bodies_are_where_mujoco_has_them(library, npz):
-    xml = library.base_task().mujoco_xml()
+    task, motion = library.base_task(), library.arrays(2)
     arrays = dict(np.load(npz / "motion_00002.npz"))
-    replay = Replay(xml)
+    replay = Replay(task.mujoco_xml())
     assert list(arrays["body_names"][:5]) == ["base", "FL_hip", "FL_thigh", "FL_calf", "FR_hip"]
     bodies = list(range(1, replay.model.nbody))
     assert len(bodies) == len(arrays["body_names"]) == 13
-    rows = range(0, len(arrays["joint_pos"]), 9)
-    assert (largest_errors(replay, arrays, bodies, rows) < [1e-6, 1e-6, 2e-5, 2e-5]).all()
+    states = [(k, motion["q"][k], motion["v"][k]) for k in range(0, len(motion["t"]), 9)]
+    assert (largest_errors(replay, task.robot, states, arrays, bodies) < [1e-6, 1e-6, 2e-5, 2e-5]).all()
     # The test sees an order that is wrong.
-    assert largest_errors(replay, arrays, [1, 3, 2, *bodies[3:]], rows)[0] > 0.05
-    arrays["joint_names"] = arrays["joint_names"][::-1]
-    assert largest_errors(replay, arrays, bodies, rows)[0] > 0.05
+    assert largest_errors(replay, task.robot, states, arrays, [1, 3, 2, *bodies[3:]])[0] > 0.05
+    for k, q, v in states:
+        for i, name in enumerate(arrays["joint_names"]):
+            joint = task.robot.joint_names.index(name)
+            assert arrays["joint_pos"][k, i] == np.float32(q[7 + joint])
+            assert arrays["joint_vel"][k, i] == np.float32(v[6 + joint])
+    assert list(arrays["joint_names"]) == [replay.model.joint(i).name for i in range(1, replay.model.njnt)]
 
 
 @pytest.mark.parametrize("name", ["hyq", "talos"])
@@ -108,20 +110,17 @@ def test_random_states_of_other_robots(name):
     q = prowl.integrate(np.tile(robot.nominal_configuration, (5, 1)), 0.3 * rng.standard_normal((5, robot.nv)))
     v = rng.standard_normal((5, robot.nv))
     found = body_motion(robot, q, v, order.bodies)
-    joints = [robot.joint_names.index(joint) for joint in order.joints]
     arrays = {
         "body_pos_w": found.position,
         "body_quat_w": found.quaternion,
         "body_lin_vel_w": found.linear_velocity,
         "body_ang_vel_w": found.angular_velocity,
-        "joint_pos": q[:, 7:][:, joints],
-        "joint_vel": v[:, 6:][:, joints],
-        "joint_names": order.joints,
     }
     replay = Replay(xml)
     bodies = range(1, replay.model.nbody)
     assert len(order.bodies) == len(bodies)
-    assert (largest_errors(replay, arrays, bodies, range(5)) < [1e-9, 1e-9, 1e-7, 1e-7]).all()
+    errors = largest_errors(replay, robot, list(zip(range(5), q, v)), arrays, bodies)
+    assert (errors < [1e-9, 1e-9, 1e-7, 1e-7]).all()
 
 
 def test_the_rate_may_differ_from_the_librarys(library, tmp_path):
@@ -167,11 +166,20 @@ def test_a_folder_with_files_is_refused(library, tmp_path):
 
 
 def test_a_model_of_another_robot_is_refused(library, tmp_path):
-    (tmp_path / "other.xml").write_text(
-        prowl.parse_task({"robot": "hyq", "phase": [{"contacts": "all", "duration_s": 1.0}]}).mujoco_xml()
-    )
-    with pytest.raises(prowl.InputError, match="need its names"):
-        library.write("mjlab", tmp_path / "out", model=tmp_path / "other.xml")
+    own, model = library.base_task().mujoco_xml(), tmp_path / "other.xml"
+    other = prowl.parse_task({"robot": "hyq", "phase": [{"contacts": "all", "duration_s": 1.0}]}).mujoco_xml()
+    extra = own.replace('<joint name="FL_hip_joint"', '<joint name="odd" axis="1 0 0"/><joint name="FL_hip_joint"')
+    for text, message in (
+        (other, "body 'lf_haa_joint' is none of Go2"),
+        (own.replace('<body name="base"', '<body name="torso"'), "body 'torso' is none of Go2"),
+        (extra, "joint 'odd' is none of Go2"),
+        ("no xml", "no XML"),
+    ):
+        assert text != own
+        model.write_text(text)
+        with pytest.raises(prowl.InputError, match=message):
+            library.write("mjlab", tmp_path / "out", model=model)
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.fixture
@@ -213,3 +221,29 @@ def test_the_same_seed_gives_the_same_episode(env):
         return [observation] + [env.step(0.1 * np.ones(12, dtype=np.float32))[0] for _ in range(20)]
 
     assert np.array_equal(run(), run())
+
+
+def test_each_motion_takes_place_on_its_own_ground(tmp_path):
+    job = JOB | {"count": 6, "draw": [{"key": "surface[0].friction", "one_of": [0.4, 0.7]}]}
+    drawn = prowl.batch(job, tmp_path / "library", workers=2, progress=False)
+    frictions = drawn.index["surface[0].friction"].to_pylist()
+    assert set(frictions) == {0.4, 0.7}
+    with gymnasium.make("prowl/TrackMotion-v0", library=drawn.folder) as made:
+        for index, friction in enumerate(frictions):
+            made.reset(options={"motion": index})
+            ground = made.unwrapped._now.plant.model.geom_friction[:, 0]
+            assert friction in ground
+
+
+def test_motions_of_several_robots_are_no_dataset(tmp_path):
+    robots = [str(prowl.read_robot(name).path) for name in ("go2", "hyq")]
+    (tmp_path / "still.toml").write_text(
+        f'robot = "{robots[0]}"\n[[phase]]\ncontacts = "all"\nduration_s = 0.5\n[cost]\njoint_acceleration = 0.001\n'
+    )
+    task = str(tmp_path / "still.toml")
+    job = {"task": task, "count": 8, "seed": 2, "draw": [{"key": "robot", "one_of": robots}]}
+    mixed = prowl.batch(job, tmp_path / "library", workers=2, progress=False)
+    kept = mixed.index.filter(mixed.index["kept"])
+    assert set(kept["robot"].to_pylist()) == set(robots)
+    with pytest.raises(prowl.InputError, match="motions of robots with other joints"):
+        mixed.write("mjlab", tmp_path / "out")

@@ -108,7 +108,7 @@ class PlanSchema(unittest.TestCase):
     def test_refuses_values_of_the_wrong_kind(self):
         for path, value in (
             ("schema_version", 3),
-            ("schema_version", 10),
+            ("schema_version", 11),
             ("status", "fine"),
             ("good", "yes"),
             ("certificate.grade", "A"),
@@ -158,7 +158,7 @@ class PlanSchema(unittest.TestCase):
             (1, 0, ""),
             (2, 2, "cpu_seconds: missing"),
             (3, 2, "shares: missing"),
-            (10, 2, "written by a newer Prowl"),
+            (11, 2, "written by a newer Prowl"),
             (0, 2, "plan again with prowl plan"),
         ):
             plan["schema_version"] = version

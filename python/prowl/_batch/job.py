@@ -32,6 +32,11 @@ def drawn_task(job: _prowl.Job, index: int, package_dirs: tuple[str, ...]) -> _p
     )
 
 
+def refine_of(job: _prowl.Job) -> str | None:
+    """Grade that the meshes are refined to; that of drafts is the default, of meshes that Prowl chooses."""
+    return "certified" if job.grade == "certified" else None
+
+
 def files_sha256(job: _prowl.Job, package_dirs: tuple[str, ...]) -> str:
     """Of all robot files, URDFs and references of the job, as this machine has them. Raises InputError unless the task is
     right at both ends of every draw."""

@@ -10,6 +10,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ from .. import _prowl
 from .._extras import needs
 from .._files import parse_task
 from .._runs.solve import solve
-from .job import drawn_task
+from .job import drawn_task, refine_of
 from .tables import index_schema
 from .worker import JobText, why_other
 
@@ -167,6 +168,20 @@ class Library:
             arrays[name] = flat.reshape(table.num_rows, -1) if is_list and table.num_rows else flat
         return arrays
 
+    def task(self, index: int) -> _prowl.Task:
+        """The task of a motion, with its drawn values."""
+        self._check(index)
+        return drawn_task(self.job, index, self.text.package_dirs)
+
+    def robot(self, index: int) -> _prowl.Robot:
+        """The robot of a motion; the same object for all motions unless draws change it."""
+        draws_robot = any(name.split("[")[0] in ("robot", "payload") for name in self.job.draw_names)
+        return self.task(index).robot if draws_robot else self._robot
+
+    @cached_property
+    def _robot(self) -> _prowl.Robot:
+        return self.base_task().robot
+
     def base_task(self) -> _prowl.Task:
         """The job's task without draws."""
         return parse_task(self.job.base_task, folder=self.job.task_path.parent, package_dirs=self.text.package_dirs)
@@ -187,6 +202,7 @@ class Library:
         None: that of Prowl's own. Raises InputError, FileError.
         """
         with needs("trainers"):
+            from .._trainers import lerobot  # noqa: F401  (a package that is missing is told before the first file)
             from .._trainers.write import write_for_trainer
         return write_for_trainer(self, format, out, rate, model, on_progress)
 
@@ -206,7 +222,7 @@ class Library:
         self._check(index)
         if why := why_other(self.text):
             raise _prowl.InputError(f"{self.folder}: this machine {why}: the motion would not be the same")
-        return solve(drawn_task(self.job, index, self.text.package_dirs), progress=False)
+        return solve(self.task(index), refine=refine_of(self.job), progress=False)
 
     def _check(self, index: int) -> None:
         if not 0 <= index < self.job.count:

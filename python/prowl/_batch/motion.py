@@ -12,7 +12,7 @@ from typing import Any
 from .. import _prowl
 from .._exports.samples import Samples, sample_plan
 from .._runs.solve import solve
-from .job import drawn_task
+from .job import drawn_task, refine_of
 
 
 @dataclass(frozen=True)
@@ -57,11 +57,10 @@ def plan_motion(job: _prowl.Job, index: int, package_dirs: tuple[str, ...] = ())
 
 def _planned(job: _prowl.Job, index: int, row: dict[str, Any], package_dirs: tuple[str, ...]) -> Motion:
     start = time.monotonic()
-    refine = "certified" if job.grade == "certified" else None  # draft is the default, of meshes that Prowl chooses
     task = drawn_task(job, index, package_dirs)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # no gains: told below
-        plan = solve(task, refine=refine, gains=job.gains or job.simulation, progress=False)
+        plan = solve(task, refine=refine_of(job), gains=job.gains or job.simulation, progress=False)
     if time.monotonic() - start > job.hang_seconds or plan.status in ("time_limit", "interrupted"):
         return Motion(None, None)
     row |= {

@@ -20,7 +20,12 @@ _FIRST = 8  #: indices that are listed of each outcome
 
 def _histogram(name: str, unit: str, series: Mapping[str, np.ndarray]) -> dict[str, Any]:
     """Over common edges; a value that is the same in all motions has one bin."""
-    edges = np.histogram_bin_edges(np.concatenate(list(series.values())), bins=_BINS)
+    values = np.concatenate(list(series.values()))
+    largest = float(np.abs(values).max())
+    if np.ptp(values) > 1e-9 * largest:
+        edges = np.histogram_bin_edges(values, bins=_BINS)
+    else:
+        edges = values.mean() + max(0.01 * largest, 1e-12) * np.array([-1.0, 1.0])
     counts = {key: np.histogram(values, bins=edges)[0].tolist() for key, values in series.items()}
     return {"name": name, "unit": unit, "edges": edges.tolist(), "counts": counts}
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import os
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -44,17 +43,23 @@ class BatchProgress:
     done_here: int = 0
 
 
-@contextmanager
-def _without_main() -> Iterator[None]:
-    """New processes import the caller's script, unless it is no file: what calls batch() would call it again."""
-    main = sys.modules["__main__"]
-    kept = {name: getattr(main, name) for name in ("__file__", "__spec__") if hasattr(main, name)}
-    main.__dict__.pop("__file__", None)
-    main.__spec__ = None
-    try:
-        yield
-    finally:
-        vars(main).update(kept)
+def _spawn_workers_without_main() -> None:
+    """New processes import the script of their parent, unless that is no file: what calls batch() would call it again.
+    Dask's workers need nothing of it."""
+    from multiprocessing import spawn
+
+    prepared = spawn.get_preparation_data
+    if getattr(prepared, "without_main", False):
+        return
+
+    def prepare(name: str) -> dict[str, Any]:
+        data = prepared(name)
+        if not name.startswith("Dask Worker"):
+            return data
+        return {key: value for key, value in data.items() if not key.startswith("init_main")}
+
+    prepare.without_main = True  # type: ignore[attr-defined]
+    spawn.get_preparation_data = prepare
 
 
 @contextmanager
@@ -73,6 +78,8 @@ def _client(workers: int | None, scheduler: str | None, tls: dict[str, str] | No
             yield client
         return
     import dask
+
+    _spawn_workers_without_main()
 
     # A task that lost its worker three times is not tried again.
     with (
@@ -250,7 +257,7 @@ def batch(
     library = Library.create(Path(out), text, asked)
 
     def run(tell: Callable[[BatchProgress], object] | None) -> Library:
-        with _without_main(), library.lock(), _client(workers, scheduler, tls) as client:
+        with library.lock(), _client(workers, scheduler, tls) as client:
             try:
                 _Run(client, library, tell or (lambda _: None)).run()
             finally:

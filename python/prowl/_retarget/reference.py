@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import zipfile
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +20,11 @@ class Reference:
 
     def slower(self, factor: float) -> Reference:
         return Reference(self.t * factor, self.q)
+
+    def lower(self, height: float) -> Reference:
+        q = self.q.copy()
+        q[:, 2] -= height
+        return Reference(self.t, q)
 
     def at(self, times: np.ndarray) -> np.ndarray:
         """Postures at these times: linear in between, the base along the shortest turn."""
@@ -61,7 +68,7 @@ def _checked(path: Path, t: np.ndarray, q: np.ndarray, names: list[str]) -> Refe
     for row, column in np.argwhere(~np.isfinite(np.column_stack([t, q])))[:1]:
         value = np.column_stack([t, q])[row, column]
         _refuse(path, row + 1, ["time", *names][column], value, "a finite number")
-    for row in np.flatnonzero(np.diff(t) <= 0)[:1]:
+    for row in np.flatnonzero(~(np.diff(t) > 0))[:1]:
         _refuse(path, row + 2, "time", t[row + 1], f"more than {t[row]:g}, that of the row before")
     length = np.linalg.norm(q[:, 3:7], axis=1)
     for row in np.flatnonzero(np.abs(length - 1.0) > 1e-3)[:1]:
@@ -79,6 +86,8 @@ def _rows(path: Path, fps: float | None, robot: _prowl.Robot) -> Reference:
     """A CSV file without names: base position, quaternion x y z w, joints in the robot's order."""
     if fps is None:
         raise _prowl.InputError(f"{path}: no names of columns, so no times; need --fps")
+    if not 0 < fps < np.inf:
+        raise _prowl.InputError(f"fps: {fps:g} is not allowed; need more than 0")
     try:
         rows = np.loadtxt(path, delimiter=",", ndmin=2)
     except ValueError as error:
@@ -90,30 +99,48 @@ def _rows(path: Path, fps: float | None, robot: _prowl.Robot) -> Reference:
     return _checked(path, np.arange(len(rows)) / fps, rows, _columns(robot))
 
 
-def _arrays(path: Path, robot: _prowl.Robot) -> Reference:
-    """An npz file with t and q, as prowl export writes it, or that of mjlab and whole_body_tracking."""
+def _read_npz(path: Path) -> dict[str, np.ndarray]:
     try:
         with np.load(path, allow_pickle=False) as file:
-            arrays = {name: np.asarray(file[name]) for name in file.files}
-    except (ValueError, OSError, EOFError) as error:
+            return {name: np.asarray(file[name]) for name in file.files}
+    except (ValueError, OSError, EOFError, TypeError, AttributeError, zipfile.BadZipFile, zlib.error) as error:
         raise _prowl.InputError(f"{path}: no npz file of numbers: {error}") from None
+
+
+def _with_shape(path: Path, arrays: dict[str, np.ndarray], name: str, shape: tuple[int | None, ...]) -> np.ndarray:
+    """An array of numbers; None in the shape stands for any length."""
+    array = arrays[name]
+    fits = array.ndim == len(shape) and all(want in (None, size) for size, want in zip(array.shape, shape))
+    if not fits or array.dtype.kind not in "fiu":
+        wanted = " x ".join("any" if want is None else str(want) for want in shape)
+        raise _prowl.InputError(f"{path}: {name} of shape {array.shape} is not allowed; need numbers, {wanted}")
+    return array.astype(float)
+
+
+def _arrays(path: Path, robot: _prowl.Robot) -> Reference:
+    """An npz file with t and q, as prowl export writes it, or that of mjlab and whole_body_tracking."""
+    arrays = _read_npz(path)
     if "t" in arrays and "q" in arrays:
-        t, q = arrays["t"].astype(float), arrays["q"].astype(float)
+        t = _with_shape(path, arrays, "t", (None,))
+        q = _with_shape(path, arrays, "q", (len(t), robot.nq))
         joints = arrays.get("joints")
-        last = np.append(np.diff(t) > 0, True)  # at a phase transition the later sample
+        last = np.append(np.diff(t) != 0, True)[: len(t)]  # at a phase transition the later sample
         t, q = t[last], q[last]
     else:
         missing = [name for name in ("fps", "joint_pos", "body_pos_w", "body_quat_w") if name not in arrays]
         if missing:
             raise _prowl.InputError(f"{path}: no arrays {', '.join(missing)}; need these, or t and q")
-        base = arrays["body_quat_w"][:, 0]  # w x y z
-        q = np.column_stack([arrays["body_pos_w"][:, 0], np.roll(base, -1, axis=1), arrays["joint_pos"]]).astype(float)
-        t = np.arange(len(q)) / float(np.ravel(arrays["fps"])[0])
+        positions = _with_shape(path, arrays, "joint_pos", (None, robot.nu))
+        places = _with_shape(path, arrays, "body_pos_w", (len(positions), None, 3))
+        turns = _with_shape(path, arrays, "body_quat_w", (len(positions), places.shape[1], 4))
+        fps = np.ravel(arrays["fps"])
+        if fps.size != 1 or fps.dtype.kind not in "fiu" or not 0 < fps[0] < np.inf or places.shape[1] == 0:
+            raise _prowl.InputError(f"{path}: fps, bodies: need one number above zero, and one body or more")
+        q = np.column_stack([places[:, 0], np.roll(turns[:, 0], -1, axis=1), positions])  # from w x y z
+        t = np.arange(len(q)) / float(fps[0])
         joints = arrays.get("joint_names")
-    if q.ndim != 2 or q.shape[1] != robot.nq:
-        raise _prowl.InputError(f"{path}: {q.shape[-1] - 7} joints; {robot.name} has {robot.nu}")
     if joints is not None:
-        names = [str(name) for name in joints]
+        names = [str(name) for name in np.ravel(joints)]
         if sorted(names) != sorted(robot.joint_names):
             odd = sorted(set(names) ^ set(robot.joint_names))
             raise _prowl.InputError(f"{path}: joints are not those of {robot.name}: {', '.join(odd[:4])}")

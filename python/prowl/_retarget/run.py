@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 import warnings
 from collections.abc import Sequence
@@ -143,17 +144,16 @@ def retarget(
     model = robot if isinstance(robot, _prowl.Robot) else read_robot(robot, package_dirs=package_dirs)
     reference = read_reference(motion, model, fps)
     feet = find_feet(model, reference, motion)
+    reference = reference.lower(feet.ground)  # files are millimetres to centimetres off
     flaws = flaws_of(model, reference, feet)
     scale, best = 1.0, None
-    with tempfile.TemporaryDirectory(prefix="prowl_") as scratch:
-        folder = Path(scratch if out is None else out).absolute()
-        while best is None or (not best.followed and scale < slowest):
-            scale = 1.0 if best is None else min(scale * _STEP, slowest)
-            tried = _tried(model, reference.slower(scale), motion, scale, flaws, folder, friction, package_dirs)
-            if best is None or tried.followed:
-                best = tried
-        if out is not None:
-            _write(best, reference.slower(best.time_scale), folder)
+    while best is None or (not best.followed and scale < slowest):
+        scale = 1.0 if best is None else min(scale * _STEP, slowest)
+        tried = _tried(model, reference.slower(scale), motion, scale, flaws, friction, package_dirs)
+        if best is None or tried.followed:
+            best = tried
+    if out is not None:
+        _write(best, reference.slower(best.time_scale), Path(out))
     return best
 
 
@@ -163,15 +163,19 @@ def _tried(
     source: object,
     scale: float,
     flaws: list[str],
-    folder: Path,
     friction: float,
     package_dirs: Sequence[str | os.PathLike[str]],
 ) -> Retargeted:
     feet = find_feet(robot, reference, source)
     task = task_of(robot, reference, feet, spans(feet, reference.t), friction, "reference.csv")
-    _prowl.write_files(folder, {"reference.csv": reference.csv(robot).encode()})
     text = toml_text({**task, "robot": os.fspath(robot.path)})
-    parsed = parse_task(task, folder=folder, package_dirs=package_dirs)
+    with tempfile.TemporaryDirectory(prefix="prowl_") as folder:  # the task keeps the text of its reference
+        Path(folder, "reference.csv").write_text(reference.csv(robot), encoding="utf-8")
+        try:
+            parsed = parse_task(task, folder=folder, package_dirs=package_dirs)
+        except _prowl.InputError as error:
+            told = "; ".join([re.sub(rf"{re.escape(folder)}/task.toml(:\d+)*: ", "", str(error)), *flaws])
+            raise _prowl.InputError(f"{source}: it makes no task of {robot.name}: {told}") from None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # no gains: the plan says so
         plan = solve(parsed, progress=False)

@@ -21,7 +21,8 @@ class Feet:
     """Contacts of a reference that move together: those of one frame."""
 
     names: list[list[str]]  #: contacts of each foot
-    place: np.ndarray  #: (N, feet, 3) mean of its contact points, less their radius [m]
+    ground: float  #: height on which the feet stand in the file [m]
+    place: np.ndarray  #: (N, feet, 3) mean of its contact points, less their radius, over that ground [m]
     stands: np.ndarray  #: (N, feet)
 
 
@@ -61,28 +62,44 @@ def find_feet(robot: _prowl.Robot, reference: Reference, source: object) -> Feet
             f"need at most {100 * DEEPEST:g} cm"
         )
     place = np.stack([points[:, indices].mean(axis=1) for indices in frames.values()], axis=1)
+    ground = float(np.quantile(place[..., 2].min(axis=1), 0.1))
+    if abs(ground) > DEEPEST:
+        raise _prowl.InputError(
+            f"{source}: the lowest feet are at {100 * ground:.1f} cm; need ground at z = 0, within {100 * DEEPEST:g} cm"
+        )
+    place[..., 2] -= ground
     height = float(robot.nominal_configuration[2])
     speed = np.linalg.norm(np.gradient(place, reference.t, axis=0), axis=2)
-    ground = np.quantile(place[..., 2].min(axis=1), 0.1)  # files are a few millimetres off
-    stands = (place[..., 2] - ground < _LOW * height) & (speed < _SLOW * np.sqrt(GRAVITY * height))
+    stands = (place[..., 2] < _LOW * height) & (speed < _SLOW * np.sqrt(GRAVITY * height))
     shortest = _SHORT * np.sqrt(height / GRAVITY)
     for foot in range(stands.shape[1]):
         stands[:, foot] = _filled(stands[:, foot], reference.t, shortest)
-    return Feet([[robot.contact_names[i] for i in indices] for indices in frames.values()], place, stands)
+    return Feet([[robot.contact_names[i] for i in indices] for indices in frames.values()], ground, place, stands)
+
+
+def _edges(flags: np.ndarray) -> np.ndarray:
+    return np.flatnonzero(np.any(np.diff(flags, axis=0), axis=1)) + 1
 
 
 def spans(feet: Feet, t: np.ndarray) -> list[Span]:
-    """Ends of a span are samples, at which the next begins; edges that are near each other become one."""
-    flags = feet.stands.copy()
-    steps = max(1, round(0.02 / float(np.median(np.diff(t)))))  # [s]: feet that land together, at 50 Hz a sample apart
-    edges = np.flatnonzero(np.any(np.diff(flags, axis=0), axis=1)) + 1
-    for earlier, later in pairwise(edges):
-        if later - earlier <= steps:
-            flags[earlier:later] = flags[later]
-    edges = np.flatnonzero(np.any(np.diff(flags, axis=0), axis=1)) + 1
-    bounds = [0, *(int(edge) for edge in edges), len(flags) - 1]
+    """Ends of a span are samples, at which the next begins. Edges that are near each other become one, and those at the
+    ends of the file none."""
+    flags, last = feet.stands.copy(), len(feet.stands) - 1
+    near = max(1, round(0.02 / float(np.median(np.diff(t)))))  # [s]: feet that land together, at 50 Hz a sample apart
+    group: list[int] = []
+    for edge in [*_edges(flags).tolist(), last + 2 * near]:
+        if group and (edge - group[-1] > near or edge - group[0] > 3 * near):
+            flags[group[0] : group[-1]] = flags[group[-1]]
+            group = []
+        group.append(edge)
+    for edge in _edges(flags):
+        if edge <= near:
+            flags[:edge] = flags[edge]
+        elif edge > last - near:
+            flags[edge:] = flags[edge - 1]
+    bounds = [0, *_edges(flags).tolist(), last]
     return [
-        Span(first, last, tuple(bool(flag) for flag in flags[first]))
-        for first, last in pairwise(bounds)
-        if last > first
+        Span(first, after, tuple(bool(flag) for flag in flags[first]))
+        for first, after in pairwise(bounds)
+        if after > first
     ]

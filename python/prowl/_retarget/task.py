@@ -15,19 +15,28 @@ _REST = 0.02  #: [m/s, rad/s] of the base: slower is at rest
 _CLEARANCE = 0.05  #: of the standing height, Prowl's default
 
 
+_BASE_SHARE = 0.1  #: of a joint's radian for a metre of the base: joints move first
+
+
 def _onto_ground(robot: _prowl.Robot, q: np.ndarray, names: list[str]) -> np.ndarray:
-    """The posture with these contacts on the ground, by small changes of the joints."""
+    """The posture with these contacts on the ground, by small changes of joints within their ranges and of the base's
+    height; as near as that gets."""
+    q = q.copy()
+    q[7:] = np.clip(q[7:], robot.position_lower, robot.position_upper)
+    if not names:
+        return q
     dynamics = _prowl.Dynamics(robot, names)
     radius = np.array([contact.radius for contact in robot.contacts if contact.name in names])
-    for _ in range(20):
+    for _ in range(50):
         below = radius - dynamics.contact_positions(q)[:, 2]
         if np.abs(below).max() < 1e-9:
             break
-        slopes = dynamics.contact_jacobian(q)[:, 2, 6:]
-        change = np.concatenate([np.zeros(6), np.linalg.lstsq(slopes, below, rcond=None)[0]])
-        q = _prowl.integrate(q, change)
-    q = q.copy()
-    q[7:] = np.clip(q[7:], robot.position_lower, robot.position_upper)
+        jacobian = dynamics.contact_jacobian(q)[:, 2]
+        stuck = (q[7:] <= robot.position_lower) | (q[7:] >= robot.position_upper)
+        slopes = np.column_stack([np.full(len(names), _BASE_SHARE), np.where(stuck, 0.0, jacobian[:, 6:])])
+        change = np.linalg.lstsq(slopes, below, rcond=None)[0]
+        q[2] += _BASE_SHARE * change[0]
+        q[7:] = np.clip(q[7:] + change[1:], robot.position_lower, robot.position_upper)
     return q
 
 
@@ -42,7 +51,7 @@ def _rpy(quaternion: np.ndarray) -> list[float]:
 
 
 def _start(robot: _prowl.Robot, reference: Reference, v: np.ndarray, names: list[str]) -> dict[str, Any]:
-    q = _onto_ground(robot, reference.q[0], names) if names else reference.q[0]
+    q = _onto_ground(robot, reference.q[0], names)
     start: dict[str, Any] = {
         "base_position_m": q[:3],
         "base_rpy_rad": _rpy(q[3:7]),

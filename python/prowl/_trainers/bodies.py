@@ -20,23 +20,39 @@ class Order:
     joints: list[str]
 
 
+def _named(kind: str, names: list[str], known: dict[str, str], robot: _prowl.Robot) -> list[str]:
+    """A trainer counts bodies and joints, so that none may be left out."""
+    if unknown := [name for name in names if name not in known]:
+        raise _prowl.InputError(f"model: {kind} '{unknown[0]}' is none of {robot.name}; need those of its URDF alone")
+    return [known[name] for name in names]
+
+
 def order_of(robot: _prowl.Robot, mjcf: str) -> Order:
-    """Of the links of the robot that are bodies of a model. Prowl's own models name a body after the joint that moves
-    it. Raises InputError for a model without the robot's joints."""
+    """Of the links that are bodies of a model, and of its joints. Prowl's own models name a body after the joint that
+    moves it. Raises InputError for a model that is not of this robot."""
     moved = {
         joint.get("name"): joint.find("child") for joint in ElementTree.fromstring(robot.urdf_text).findall("joint")
     }
     links = {"base": robot.links[0].name} | {link.name: link.name for link in robot.links}
     links |= {name: child.get("link", "") for name, child in moved.items() if name and child is not None}
-    tree = ElementTree.fromstring(mjcf)
-    bodies = [links[name] for body in tree.iter("body") if (name := body.get("name", "")) in links]
-    joints = [joint.get("name", "") for body in tree.iter("body") for joint in body.findall("joint")]
-    joints = [name for name in joints if name in robot.joint_names]
-    if missing := sorted(set(robot.joint_names) - set(joints)):
-        raise _prowl.InputError(f"model: no joint {', '.join(missing)}, which {robot.name} has; need its names")
-    if not bodies:
-        raise _prowl.InputError(f"model: no body has the name of a link of {robot.name}")
-    return Order(bodies, joints)
+    try:
+        tree = ElementTree.fromstring(mjcf)
+    except ElementTree.ParseError as error:
+        raise _prowl.InputError(f"model: no XML: {error}") from None
+    elements = list(tree.iter("body"))
+    joints = [
+        joint.get("name", "")
+        for body in elements
+        for joint in body.findall("joint")
+        if joint.get("type", "hinge") in ("hinge", "slide")
+    ]
+    order = Order(
+        _named("body", [body.get("name", "") for body in elements], links, robot),
+        _named("joint", joints, {name: name for name in robot.joint_names}, robot),
+    )
+    if missing := sorted(set(robot.joint_names) - set(order.joints)):
+        raise _prowl.InputError(f"model: no joint '{missing[0]}', which {robot.name} has; need its names")
+    return order
 
 
 @dataclass(frozen=True)

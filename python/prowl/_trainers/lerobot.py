@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterator
 
 import numpy as np
+import pandas
 import pyarrow as pa
 import pyarrow.parquet as pq
 
@@ -127,8 +128,6 @@ class Dataset:
 
     def close(self) -> Iterator[tuple[str, bytes]]:
         """The last files."""
-        import pandas
-
         if self._open:
             yield self._data_file()
         yield _EPISODES, _parquet(pa.Table.from_pylist(self._episodes))

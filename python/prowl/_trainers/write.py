@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 FORMATS = ("mjlab", "lerobot")
 
 
-def _even(motion: dict[str, np.ndarray], rate: float, robot: _prowl.Robot) -> dict[str, np.ndarray]:
-    """Samples at multiples of the period alone: a library also has the end of each motion."""
+def even_samples(motion: dict[str, np.ndarray], rate: float, robot: _prowl.Robot) -> dict[str, np.ndarray]:
+    """Samples at multiples of the period alone: a library also has the end of each motion. Linear between samples."""
     period = 1.0 / rate
     times = np.arange(int(np.floor(motion["t"][-1] / period + 1e-9)) + 1) * period
     if len(times) <= len(motion["t"]) and np.allclose(motion["t"][: len(times)], times, rtol=0, atol=1e-9):
@@ -36,23 +36,39 @@ def _even(motion: dict[str, np.ndarray], rate: float, robot: _prowl.Robot) -> di
     return result
 
 
-def _files(library: Library, format: str, rate: float, model: str | None) -> Iterator[tuple[str, bytes]]:
-    task = library.base_task()
+def _robot_of_all(library: Library, indices: list[int]) -> _prowl.Robot:
+    """Raises InputError unless all motions are of robots with the same joints and contacts."""
+    robots = {(tuple(robot.joint_names), tuple(robot.contact_names)): robot for robot in map(library.robot, indices)}
+    if len(robots) > 1:
+        raise _prowl.InputError(f"{library.folder}: motions of robots with other joints; need one robot")
+    return next(iter(robots.values()))
+
+
+def _files(
+    library: Library, format: str, rate: float, model: str | None, tell: Callable[[int, int], object]
+) -> Iterator[tuple[str, bytes]]:
     kept = library.index.filter(library.index["kept"])["index"].to_pylist()
     if not kept:
         raise _prowl.InputError(f"{library.folder}: no motion was kept, so none can be written")
-    motions = ((index, _even(library.arrays(index), rate, task.robot)) for index in kept)
+    robot = _robot_of_all(library, kept)
+    task = library.base_task()
+
+    def motions() -> Iterator[tuple[int, dict[str, np.ndarray]]]:
+        for count, index in enumerate(kept):
+            yield index, even_samples(library.arrays(index), rate, robot)
+            tell(count + 1, len(kept))
+
     if format == "mjlab":
         from .mjlab import motion_arrays, npz
 
-        order = order_of(task.robot, task.mujoco_xml() if model is None else model)
-        for index, motion in motions:
-            yield f"motion_{index:05d}.npz", npz(motion_arrays(task.robot, motion["q"], motion["v"], rate, order))
+        order = order_of(robot, library.task(kept[0]).mujoco_xml() if model is None else model)
+        for index, motion in motions():
+            yield f"motion_{index:05d}.npz", npz(motion_arrays(robot, motion["q"], motion["v"], rate, order))
         return
     from .lerobot import Dataset
 
-    dataset = Dataset(task.robot, rate, task.name)
-    for _, motion in motions:
+    dataset = Dataset(robot, rate, task.name)
+    for _, motion in motions():
         yield from dataset.add(motion)
     yield from dataset.close()
 
@@ -73,11 +89,9 @@ def write_for_trainer(
         raise _prowl.InputError(f"{folder}: not empty; need another folder")
     text = None if model is None else Path(model).read_text(encoding="utf-8")
     names: list[str] = []
-    total = library.kept
-    for name, content in _files(library, format, library.job.rate if rate is None else rate, text):
+    tell = on_progress or (lambda done, total: None)
+    for name, content in _files(library, format, library.job.rate if rate is None else rate, text, tell):
         path = folder / name
         _prowl.write_files(path.parent, {path.name: content})
         names.append(name)
-        if on_progress is not None:
-            on_progress(min(len(names), total), total)
     return names
