@@ -23,7 +23,7 @@ class Demo(unittest.TestCase):
             capture_output=True,
             text=True,
         ).stdout
-        for made in ("-o bin/prowl ", "share/prowl/report.html", "-o python/prowl/_prowl", "python/prowl/_prowl.pyi"):
+        for made in ("-o bin/prowl ", "report/build.mjs", "-o python/prowl/_prowl", "python/prowl/_prowl.pyi"):
             self.assertIn(made, commands, f"{targets} do not make it")
         self.assertNotIn("_test.cpp", commands, "the first build would be much longer with the tests")
 
