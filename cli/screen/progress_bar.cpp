@@ -18,6 +18,13 @@ namespace prowl::cli {
 namespace {
 
 constexpr int kNarrowest = 76;  // columns for bar and times
+constexpr int kBar = 52;        // columns for the bar alone
+
+/// Columns of the terminal; kNarrowest if it does not tell.
+int terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 ? kNarrowest : size.ws_col;
+}
 
 /// True for a terminal that is wide enough: times are overwritten by backspaces, which stop at the
 /// start of a line.
@@ -25,8 +32,11 @@ bool has_room() {
   if (::isatty(STDERR_FILENO) != 1) return false;
   const char* const terminal = std::getenv("TERM");
   if (terminal && std::string_view(terminal) == "dumb") return false;  // it may lack backspace
-  winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_col >= kNarrowest;
+  return terminal_columns() >= kNarrowest;
+}
+
+std::string with_note(const std::string& text, const std::string& note) {
+  return note.empty() ? text : text + "; " + note;
 }
 
 std::string clock(double seconds) {
@@ -58,34 +68,35 @@ bool ProgressBar::is_long(int done) const {
   return passed >= kFirstLook && done < total_ && passed * total_ >= kLong * done;
 }
 
-void ProgressBar::show(int done) {
+void ProgressBar::show(int done, const std::string& note) {
   if (is_quiet()) return;
   if (!is_open_ && is_long(done)) open();
   if (!is_open_ || done == 0) return;
   if (bar_) {
-    show_bar(done);
+    show_bar(done, note);
   } else {
-    show_line(done);
+    show_line(done, note);
   }
 }
 
-void ProgressBar::show_bar(int done) {
+void ProgressBar::show_bar(int done, const std::string& note) {
   const unsigned long more = static_cast<unsigned long>(done) - bar_->count();
   if (more == 0) return;  // it would draw a tick anyway
   write_behind("");
   *bar_ += more;
   if (done < total_) {
-    write_behind("  " + times(done));
+    const std::string behind = "  " + times(done), all = with_note(behind, note);
+    write_behind(kBar + std::ssize(all) <= terminal_columns() ? all : behind);
   } else {
-    print_message(fmt::format("{} {}: {}\n", done, what_, times(done)));  // the bar has ended its line
+    print_message(fmt::format("{} {}: {}\n", done, what_, with_note(times(done), note)));  // the bar has ended its line
   }
 }
 
-void ProgressBar::show_line(int done) {
+void ProgressBar::show_line(int done, const std::string& note) {
   const int tenths = static_cast<int>(10L * done / total_);
   if (tenths == tenths_) return;
   tenths_ = tenths;
-  print_message(fmt::format("{} of {} {}: {}\n", done, total_, what_, times(done)));
+  print_message(fmt::format("{} of {} {}: {}\n", done, total_, what_, with_note(times(done), note)));
 }
 
 double ProgressBar::seconds() const { return wall_seconds() - began_; }

@@ -19,14 +19,15 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `done` must not decrease; 0 shows the start.
-  void show(int done);
+  /// `done` must not decrease; 0 shows the start. `note`: of the work so far, in ASCII; behind the times, if it has
+  /// room.
+  void show(int done, const std::string& note = "");
 
  private:
   bool is_long(int done) const;
   void open();
-  void show_bar(int done);
-  void show_line(int done);
+  void show_bar(int done, const std::string& note);
+  void show_line(int done, const std::string& note);
   double seconds() const;  ///< since construction
   std::string times(int done) const;
   void write_behind(const std::string& text);

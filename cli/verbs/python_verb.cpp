@@ -60,8 +60,11 @@ class Listener {
     } else if (said.contains("message")) {
       print_message(said["message"].get<std::string>() + "\n");
     } else if (said.contains("progress")) {
-      if (!bar_) bar_.emplace(said["progress"][2].get<std::string>(), said["progress"][1].get<int>());
-      bar_->show(said["progress"][0].get<int>());
+      const Json& progress = said["progress"];
+      if (!bar_) bar_.emplace(progress[2].get<std::string>(), progress[1].get<int>());
+      bar_->show(progress[0].get<int>(), progress.size() > 3 ? progress[3].get<std::string>() : "");
+    } else if (said.contains("note")) {
+      print_progress(said["note"].get<std::string>() + "\n");
     } else if (said.contains("event")) {
       if (json_) print_bytes(said.dump() + "\n");
     } else {

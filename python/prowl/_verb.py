@@ -3,7 +3,8 @@
 
     _verb.py VERB OPTIONS
 
-Prints one JSON object per line: {"progress": [done, total, plural name]}, {"message": text}, {"event": name, ...}, and at the end {"error":
+Prints one JSON object per line: {"progress": [done, total, plural name, note]} (the note may be missing), {"message": text},
+{"note": text} (not with --quiet), {"event": name, ...}, and at the end {"error":
 text, "kind": as in docs/command-line.md}, or {"result": object, "text": the same for people}.
 """
 
@@ -93,6 +94,15 @@ def _summary(library: object) -> tuple[str, dict[str, object]]:
     return "\n".join(lines) + "\n", data
 
 
+def _so_far(progress: object) -> str:
+    """Share that is kept, and the most frequent causes of failure, in ASCII."""
+    if not progress.done:
+        return ""
+    causes = sorted(progress.causes.items(), key=lambda cause: -cause[1])[:3]
+    parts = [f"{100 * progress.kept / progress.done:.0f} % kept", *(f"{count} {name}" for name, count in causes)]
+    return ", ".join(parts).encode("ascii", "replace").decode()
+
+
 def _batch(options: argparse.Namespace) -> None:
     import prowl
 
@@ -104,9 +114,9 @@ def _batch(options: argparse.Namespace) -> None:
     def tell(progress: object) -> None:
         nonlocal last
         if last is None and progress.dashboard:
-            _say(message=f"Dask's dashboard: {progress.dashboard}")
+            _say(note=f"Dask's dashboard: {progress.dashboard}")
         last = progress
-        _say(progress=[progress.done, progress.total, "motions"])
+        _say(progress=[progress.done, progress.total, "motions", _so_far(progress)])
         _say(
             event="progress",
             done=progress.done,

@@ -122,8 +122,9 @@ def test_the_client_may_die(library, tmp_path):
         running.kill()
         running.wait()
         assert len(list(index.glob("*.parquet"))) < 3
-    done = subprocess.run([*line, "--json"], capture_output=True, text=True)
+    done = subprocess.run([*line[:-1], "--json"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+    assert "% kept" in done.stderr
     result = json.loads(done.stdout[done.stdout.index("{\n") :])
     assert result["done"] == 14 and result["kept"] == library.kept
     # The texts of the jobs differ in the order of their keys.
