@@ -13,6 +13,7 @@ from .stances import Feet, Span
 
 _REST = 0.02  #: [m/s, rad/s] of the base: slower is at rest
 _CLEARANCE = 0.05  #: of the standing height, Prowl's default
+_SWING_SHARE = 0.5  #: of the reference's height, that the parabola of Prowl's clearance stays below smooth swings
 
 
 _BASE_SHARE = 0.1  #: of a joint's radian for a metre of the base: joints move first
@@ -63,13 +64,13 @@ def _start(robot: _prowl.Robot, reference: Reference, v: np.ndarray, names: list
 
 
 def _clearance(robot: _prowl.Robot, feet: Feet) -> float:
-    """The lowest swing of the reference if that is below the default."""
+    """Half the lowest swing of the reference, at most the default."""
     least = _CLEARANCE * float(robot.nominal_configuration[2])
     for foot in range(feet.stands.shape[1]):
         edges = np.flatnonzero(np.diff(feet.stands[:, foot])) + 1
         for first, after in pairwise(edges):
             if not feet.stands[first, foot]:
-                least = min(least, 0.8 * max(0.0, float(feet.place[first:after, foot, 2].max())))
+                least = min(least, _SWING_SHARE * max(0.0, float(feet.place[first:after, foot, 2].max())))
     return least
 
 
