@@ -41,7 +41,7 @@ def rejected(library: prowl.Library, index: int, folder: Path) -> set[str]:
 def main() -> None:
     library = prowl.read_library(sys.argv[1])
     count, seed = (int(text) for text in [*sys.argv[2:], "500", "1"][:2])
-    kept = np.array(library.index.filter(library.index["kept"])["index"].to_pylist())
+    kept = np.array(library.kept_rows["index"].to_pylist())
     drawn = np.random.default_rng(seed).choice(kept, min(count, len(kept)), replace=False)
     why: Counter[str] = Counter()
     bad = 0

@@ -1,6 +1,7 @@
 #include "prowl/guess/contact_path.hpp"
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/all_contacts.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/surface.hpp"
 
@@ -11,11 +12,13 @@ using Eigen::VectorXd;
 
 ContactPath::ContactPath(const DiscreteProblem& discrete, const PosturePath& posture) : discrete_(discrete) {
   const MotionProblem& problem = discrete.problem;
-  RigidBodyTerms terms(problem.robot), in_reference(problem.robot);
+  RigidBodyTerms terms(problem.robot);
   const VectorXd& start = problem.start_configuration();
   terms.update_kinematics(start);
+  std::vector<Vector3d> start_positions;
+  for (const int contact : all_contacts(problem.robot)) start_positions.push_back(terms.contact_position(contact));
   for (const ContactStance& stance : discrete_.schedule.stances()) {
-    const Vector3d at_start = terms.contact_position(stance.contact);
+    const Vector3d& at_start = start_positions[stance.contact];
     if (!stance.lands()) {
       footholds_.push_back(at_start);
       continue;
@@ -27,8 +30,8 @@ ContactPath::ContactPath(const DiscreteProblem& discrete, const PosturePath& pos
     Vector3d carried =
         base_position(q) + base_rotation(q) * (base_rotation(start).transpose() * (at_start - base_position(start)));
     if (problem.reference) {
-      in_reference.update_kinematics(q);
-      carried = in_reference.contact_position(stance.contact);
+      terms.update_kinematics(q);
+      carried = terms.contact_position(stance.contact);
     }
     footholds_.push_back(
         surface.at(nearest_in_patch(surface, surface.coordinates(stance.foothold.value_or(carried))), radius));

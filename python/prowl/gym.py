@@ -111,7 +111,7 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
         """rate: of actions [Hz]. noise: standard deviation of the start's joints [rad]. motions: indices; None: all that
         are kept."""
         self.library = read_library(library)
-        kept = self.library.index.filter(self.library.index["kept"])["index"].to_pylist()
+        kept = self.library.kept_rows["index"].to_pylist()
         self._indices = kept if motions is None else list(motions)
         if not self._indices or not set(self._indices) <= set(kept):
             raise ValueError(f"{self.library.folder}: need motions that were kept, one or more")
@@ -130,9 +130,11 @@ class TrackMotion(gymnasium.Env[np.ndarray, np.ndarray]):
             if list(task.robot.joint_names) != list(self._robot.joint_names):
                 raise ValueError(f"{self.library.folder}: motions of robots with other joints; choose with motions=")
             xml = task.mujoco_xml()
-            plant = self._plants.setdefault(xml, _Plant(task)) if xml not in self._plants else self._plants[xml]
+            if xml not in self._plants:
+                self._plants[xml] = _Plant(task)
+            plant = self._plants[xml]
             period = self._steps(plant.model) * plant.model.opt.timestep
-            motion = even_samples(self.library.arrays(index), 1.0 / period, task.robot)
+            motion = even_samples(self.library.arrays(index), 1.0 / period)
             targets = motion["q"][:, 7:] + (motion["tau"] + plant.damping * motion["v"][:, 6:]) / plant.stiffness
             flags = motion["in_contact"].astype(float)
             self._motions[index] = _Followed(plant, motion["q"], motion["v"], targets, flags)

@@ -235,17 +235,20 @@ class Library:
 
     def grades(self) -> dict[str, int]:
         """Kept motions by grade of their certificate."""
-        index = self.index
-        kept = index.filter(index["kept"])
-        return dict(Counter(kept["grade"].to_pylist()))
+        return dict(Counter(self.kept_rows["grade"].to_pylist()))
 
     @property
     def done(self) -> int:
         return self.index.num_rows
 
     @property
+    def kept_rows(self) -> pa.Table:
+        """Rows of the index with the motions that are kept."""
+        return self.index.filter(self.index["kept"])
+
+    @property
     def kept(self) -> int:
-        return sum(self.index["kept"].to_pylist())
+        return self.kept_rows.num_rows
 
     def sha256(self) -> str:
         """Of all files but library.json, which names paths of this machine: equal libraries have equal hashes."""

@@ -34,8 +34,7 @@ def _margins(library: Library) -> tuple[list[dict[str, Any]], list[str]]:
     """Worst values of the checks of all motions that are kept, over their limits, or in their unit if they are
     distances from a limit, negative while it is kept; and the names of checks that are far from theirs."""
     worst: dict[tuple[str, str], list[tuple[float, float]]] = {}
-    kept = library.index.filter(library.index["kept"])
-    for checks in kept["checks"].to_pylist():
+    for checks in library.kept_rows["checks"].to_pylist():
         for check in checks:
             if np.isfinite(check["worst"]) and check["limit"] > 0:
                 worst.setdefault((check["name"], check["unit"]), []).append((check["worst"], check["limit"]))

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 from .. import _prowl
 from .reference import Reference
-from .stances import GRAVITY, Feet
+from .stances import GRAVITY, Feet, runs
 
 _SLIDE = 0.01  #: [m] that a foot on the ground may move: its place is the mean
 _ANGLE = 0.01  #: [rad] beyond a range
@@ -38,8 +36,7 @@ def flaws_of(robot: _prowl.Robot, reference: Reference, feet: Feet) -> list[str]
                 f"{_when(reference.t, beyond)}"
             )
     for foot, names in enumerate(feet.names):
-        edges = [0, *(np.flatnonzero(np.diff(feet.stands[:, foot])) + 1), len(reference.t)]
-        for first, after in pairwise(edges):
+        for first, after in runs(feet.stands[:, foot]):
             place = feet.place[first:after, foot, :2]
             way = float(np.linalg.norm(place.max(axis=0) - place.min(axis=0)))
             if feet.stands[first, foot] and way > _SLIDE:

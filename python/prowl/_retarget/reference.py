@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import _prowl
+from .._postures import places_between, postures_between, rotated
 
 
 @dataclass(frozen=True)
@@ -28,10 +29,7 @@ class Reference:
 
     def at(self, times: np.ndarray) -> np.ndarray:
         """Postures at these times: linear in between, the base along the shortest turn."""
-        after = np.clip(np.searchsorted(self.t, times, side="right"), 1, len(self.t) - 1)
-        before = after - 1
-        share = np.clip((times - self.t[before]) / (self.t[after] - self.t[before]), 0.0, 1.0)
-        return _prowl.integrate(self.q[before], share[:, None] * _prowl.difference(self.q[before], self.q[after]))
+        return postures_between(self.q, *places_between(self.t, times))
 
     def velocities(self) -> np.ndarray:
         """v (N, nv) by differences over both neighbours: twist of the base in its frame, joint rates."""
@@ -39,7 +37,7 @@ class Reference:
         before, after = np.maximum(np.arange(last + 1) - 1, 0), np.minimum(np.arange(last + 1) + 1, last)
         steps = (self.t[after] - self.t[before])[:, None]
         rates = (_prowl.difference(self.q, self.q[after]) - _prowl.difference(self.q, self.q[before])) / steps
-        rates[:, :3] = _rotated_back(self.q[:, 3:7], rates[:, :3])
+        rates[:, :3] = rotated(self.q[:, 3:7] * [-1.0, -1.0, -1.0, 1.0], rates[:, :3])  # into the axes of the base
         return rates
 
     def csv(self, robot: _prowl.Robot) -> str:
@@ -48,13 +46,6 @@ class Reference:
         lines = [",".join(names + [f"q_{joint}_rad" for joint in robot.joint_names])]
         lines += [",".join(repr(float(x)) for x in (t, *q)) for t, q in zip(self.t, self.q)]
         return "\n".join(lines) + "\n"
-
-
-def _rotated_back(quaternions: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """R' v for rows."""
-    u, w = -quaternions[:, :3], quaternions[:, 3:]
-    twice = 2.0 * np.cross(u, vectors)
-    return vectors + w * twice + np.cross(u, twice)
 
 
 def _refuse(path: Path, row: int, column: str, value: object, need: str) -> None:

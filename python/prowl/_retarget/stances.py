@@ -35,12 +35,16 @@ class Span:
     stands: tuple[bool, ...]
 
 
+def runs(flags: np.ndarray) -> list[tuple[int, int]]:
+    """Samples first ... after - 1 with one value of the flags, in order."""
+    return list(pairwise([0, *(np.flatnonzero(np.diff(flags)) + 1).tolist(), len(flags)]))
+
+
 def _filled(flags: np.ndarray, t: np.ndarray, shortest: float) -> np.ndarray:
     """Without gaps, then without stances, that are too short; those at the ends are as long as they like."""
     flags = flags.copy()
     for value in (False, True):
-        edges = np.flatnonzero(np.diff(flags)) + 1
-        for first, after in pairwise(edges):
+        for first, after in runs(flags)[1:-1]:
             if flags[first] == value and t[after] - t[first] < shortest:
                 flags[first:after] = not value
     return flags

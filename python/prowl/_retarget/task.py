@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from .. import _prowl
 from .reference import Reference
-from .stances import Feet, Span
+from .stances import Feet, Span, runs
 
 _REST = 0.02  #: [m/s, rad/s] of the base: slower is at rest
 _CLEARANCE = 0.05  #: of the standing height, Prowl's default
 _SWING_SHARE = 0.5  #: of the reference's height, that the parabola of Prowl's clearance stays below smooth swings
-
-
 _BASE_SHARE = 0.1  #: of a joint's radian for a metre of the base: joints move first
 
 
@@ -67,8 +64,7 @@ def _clearance(robot: _prowl.Robot, feet: Feet) -> float:
     """Half the lowest swing of the reference, at most the default."""
     least = _CLEARANCE * float(robot.nominal_configuration[2])
     for foot in range(feet.stands.shape[1]):
-        edges = np.flatnonzero(np.diff(feet.stands[:, foot])) + 1
-        for first, after in pairwise(edges):
+        for first, after in runs(feet.stands[:, foot])[1:-1]:
             if not feet.stands[first, foot]:
                 least = min(least, _SWING_SHARE * max(0.0, float(feet.place[first:after, foot, 2].max())))
     return least

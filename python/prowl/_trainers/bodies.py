@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from .. import _prowl
+from .._postures import rotated
 
 _STEP = 1e-5  #: [s] of central differences: errors of 1e-10 of the velocity
 
@@ -76,10 +77,8 @@ def body_motion(robot: _prowl.Robot, q: np.ndarray, v: np.ndarray, bodies: list[
     """Of these bodies, for rows of q and v."""
     names = [link.name for link in robot.links]
     columns = [names.index(name) for name in bodies]
-    turn = q[:, 3:7]
-    twice = 2.0 * np.cross(turn[:, :3], v[:, :3])
     rates = v.copy()
-    rates[:, :3] = v[:, :3] + turn[:, 3:] * twice + np.cross(turn[:, :3], twice)  # a tangent has it in the world
+    rates[:, :3] = rotated(q[:, 3:7], v[:, :3])  # a tangent has it in the world
     before, now, after = (
         robot.link_placements(_prowl.integrate(q, step * rates))[:, columns] for step in (-_STEP, 0.0, _STEP)
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _prowl
+from .._postures import places_between, postures_between
 from .bodies import order_of
 
 if TYPE_CHECKING:
@@ -18,21 +19,17 @@ if TYPE_CHECKING:
 FORMATS = ("mjlab", "lerobot")
 
 
-def even_samples(motion: dict[str, np.ndarray], rate: float, robot: _prowl.Robot) -> dict[str, np.ndarray]:
+def even_samples(motion: dict[str, np.ndarray], rate: float) -> dict[str, np.ndarray]:
     """Samples at multiples of the period alone: a library also has the end of each motion. Linear between samples."""
     period = 1.0 / rate
     times = np.arange(int(np.floor(motion["t"][-1] / period + 1e-9)) + 1) * period
     if len(times) <= len(motion["t"]) and np.allclose(motion["t"][: len(times)], times, rtol=0, atol=1e-9):
         return {name: values[: len(times)] for name, values in motion.items()}
-    t = motion["t"]
-    after = np.clip(np.searchsorted(t, times, side="right"), 1, len(t) - 1)
-    share = ((times - t[after - 1]) / (t[after] - t[after - 1]))[:, None]
-    result = {"t": times}
+    before, share = places_between(motion["t"], times)
+    result = {"t": times, "q": postures_between(motion["q"], before, share)}
     for name in ("v", "tau", "f"):
-        result[name] = (1 - share) * motion[name][after - 1] + share * motion[name][after]
-    before = motion["q"][after - 1]
-    result["q"] = _prowl.integrate(before, share * _prowl.difference(before, motion["q"][after]))
-    result["in_contact"] = motion["in_contact"][np.where(share[:, 0] < 1.0, after - 1, after)]
+        result[name] = (1 - share) * motion[name][before] + share * motion[name][before + 1]
+    result["in_contact"] = motion["in_contact"][np.where(share[:, 0] < 1.0, before, before + 1)]
     return result
 
 
@@ -47,7 +44,7 @@ def _robot_of_all(library: Library, indices: list[int]) -> _prowl.Robot:
 def _files(
     library: Library, format: str, rate: float, model: str | None, tell: Callable[[int, int], object]
 ) -> Iterator[tuple[str, bytes]]:
-    kept = library.index.filter(library.index["kept"])["index"].to_pylist()
+    kept = library.kept_rows["index"].to_pylist()
     if not kept:
         raise _prowl.InputError(f"{library.folder}: no motion was kept, so none can be written")
     robot = _robot_of_all(library, kept)
@@ -55,7 +52,7 @@ def _files(
 
     def motions() -> Iterator[tuple[int, dict[str, np.ndarray]]]:
         for count, index in enumerate(kept):
-            yield index, even_samples(library.arrays(index), rate, robot)
+            yield index, even_samples(library.arrays(index), rate)
             tell(count + 1, len(kept))
 
     if format == "mjlab":
