@@ -4,12 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace prowl {
+#include "prowl/nlp/linearised_chain.hpp"
 
-struct StageSize {
-  int inputs = 0, states = 0, equalities = 0, inequalities = 0;
-  int variables() const { return inputs + states; }
-};
+namespace prowl {
 
 struct StageValues {
   double cost = 0.0;
@@ -34,21 +31,10 @@ struct StageMultipliers {
 /// The variables of a stage are one vector (u_k, x_k). Bounds on variables are rows here. Fixed variables may be left
 /// out; the first stage has only free states. Evaluations may throw NumericalError. Their results are valid until the
 /// next evaluation of that stage.
-class StagewiseNlp {
+class StagewiseNlp : public LinearisedChain {
  public:
-  virtual ~StagewiseNlp() = default;
-
-  virtual int num_stages() const = 0;
-  virtual const StageSize& size(int k) const = 0;
   virtual const Eigen::VectorXd& lower(int k) const = 0;  ///< of the inequalities
   virtual const Eigen::VectorXd& upper(int k) const = 0;
-  /// Closes the chain: the last equalities of the last stage are in truth
-  ///   equalities.tail(rows) + closure() * (u_0, x_0) = 0,
-  /// one row each. Without rows, as usual, the chain is open.
-  virtual const Eigen::MatrixXd& closure() const {
-    static const Eigen::MatrixXd open;
-    return open;
-  }
 
   virtual const StageValues& values(int k, const Eigen::VectorXd& ux) = 0;
   virtual const StageDerivatives& derivatives(int k, const Eigen::VectorXd& ux) = 0;
@@ -56,25 +42,13 @@ class StagewiseNlp {
   virtual const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd& ux, double cost_factor,
                                          const StageMultipliers& multipliers) = 0;
 
-  /// Evaluates values and all derivatives of a stage for the functions below, which use its structure instead of the
-  /// dense matrices above. Their results are valid until the next linearise(), derivatives() or hessian() of the stage.
+  /// Evaluates values and all derivatives of a stage for the functions of LinearisedChain, which use its structure
+  /// instead of the dense matrices above. Their results are valid until the next linearise(), derivatives() or
+  /// hessian() of the stage.
   virtual void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) = 0;
   /// The same without second derivatives: lagrangian_hessian() is then undefined.
   virtual void linearise_to_first_order(int k, const Eigen::VectorXd& ux) = 0;
   virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
-  virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;
-  /// The lower triangle of hessian(); above it the matrix is undefined.
-  virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;
-  /// result += next' next_hessian next + inequalities' diag(weights) inequalities, with the derivatives of both: the
-  /// lower triangle. Above it the result is undefined afterwards.
-  virtual void add_condensed(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
-                             Eigen::MatrixXd& result) = 0;
-  /// Derivatives of next and of the inequalities along a step in (u, x).
-  virtual void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next,
-                            Eigen::VectorXd& inequalities) = 0;
-  /// gradient += next' on_next + inequalities' on_inequalities; an empty vector is left out.
-  virtual void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
-                             Eigen::VectorXd& gradient) = 0;
 
   /// Converts the variables of the Nlp to those of each stage, and back.
   virtual std::vector<Eigen::VectorXd> stages(const Eigen::VectorXd& z) const = 0;

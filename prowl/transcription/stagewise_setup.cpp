@@ -49,7 +49,8 @@ void StagewiseTranscription::set_shapes() {
     stage.shape = static_cast<std::size_t>(known - shapes.begin());
     if (known == shapes.end()) shapes.push_back(shape);
   }
-  works_.assign(1, std::vector<Work>(shapes.size()));
+  works_.clear();
+  works_.emplace_back(shapes.size());
 }
 
 std::pair<double, double> StagewiseTranscription::bounds(int k, int variable) const {
@@ -210,10 +211,10 @@ void StagewiseTranscription::set_patterns(int k) {
       gradients(j, i) = bound_slope(k, slopes, of_bounds[i] - stage.num_rows, variable);
     for (Index i = 0; i < next.rows(); ++i) next(i, j) = next_slope(k, slopes, static_cast<int>(i), variable);
   }
-  stage.bound_gradients = gradients.sparseView();
-  stage.next_slopes = next.sparseView();
-  stage.equality_slopes.resize(stage.size.equalities, variables);
-  stage.row_gradients.resize(variables, first_bound - stage.inequalities.begin());
+  stage.slopes.bounds = gradients.sparseView();
+  stage.slopes.next = next.sparseView();
+  stage.slopes.equalities.resize(stage.size.equalities, variables);
+  stage.slopes.rows.resize(variables, first_bound - stage.inequalities.begin());
 }
 
 }  // namespace prowl

@@ -14,7 +14,9 @@ using Entry = Eigen::SparseMatrix<double>::InnerIterator;
 }  // namespace
 
 void StagewiseTranscription::use_threads(int count) {
-  works_.resize(static_cast<std::size_t>(count), std::vector<Work>(works_.front().size()));
+  const std::size_t shapes = works_.front().size();
+  works_.clear();
+  while (std::ssize(works_) < count) works_.emplace_back(shapes);
 }
 
 HalfTime StagewiseTranscription::half_time(int k, int i, const VectorXd& node) const {
@@ -95,37 +97,37 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
 
   work.on_node = node.cost_gradient;
   stage.arrival.pull_back(work.on_node);
-  stage.cost_gradient.resize(stage.size.variables());
-  for (Index i = 0; i < stage.cost_gradient.size(); ++i) {
-    stage.cost_gradient(i) = stage.unit(i) * work.on_node(stage.variables[i]);
+  stage.slopes.cost_gradient.resize(stage.size.variables());
+  for (Index i = 0; i < stage.slopes.cost_gradient.size(); ++i) {
+    stage.slopes.cost_gradient(i) = stage.unit(i) * work.on_node(stage.variables[i]);
   }
 
   MatrixXd& slopes = work.slopes;
   slopes.resize(stage.num_rows + kBaseRows, size);
   slopes.topRows(stage.num_rows) = jacobian.topRows(stage.num_rows);
   fill_base_slopes(stage, slopes);
-  const Index rows = stage.row_gradients.cols(), first = stage.num_first_equalities;
+  const Index rows = stage.slopes.rows.cols(), first = stage.num_first_equalities;
   for (Index j = 0; j < stage.size.variables(); ++j) {
     const auto column = slopes.col(stage.variables[j]);
     const double unit = stage.unit(j);
-    auto equalities = stage.equality_slopes.col(j);
+    auto equalities = stage.slopes.equalities.col(j);
     equalities.head(first) = unit * column.head(first);
     for (Index i = first; i < equalities.size(); ++i) {
       const int row = stage.equalities[i], bound = row - stage.num_rows;  // a bound if both sides are equal
       equalities(i) =
           unit * (bound < 0 ? column(row) : stage.per_unit(bound) * bound_slope(k, slopes, bound, stage.variables[j]));
     }
-    for (Index i = 0; i < rows; ++i) stage.row_gradients(j, i) = unit * column(stage.inequalities[i]);
+    for (Index i = 0; i < rows; ++i) stage.slopes.rows(j, i) = unit * column(stage.inequalities[i]);
   }
-  for (Index i = 0; i < stage.bound_gradients.cols(); ++i) {
+  for (Index i = 0; i < stage.slopes.bounds.cols(); ++i) {
     const int bound = stage.inequalities[rows + i] - stage.num_rows;
-    for (Entry entry(stage.bound_gradients, i); entry; ++entry) {
+    for (Entry entry(stage.slopes.bounds, i); entry; ++entry) {
       entry.valueRef() =
           stage.per_unit(bound) * stage.unit(entry.row()) * bound_slope(k, slopes, bound, stage.variables[entry.row()]);
     }
   }
-  for (Index j = 0; j < stage.next_slopes.cols(); ++j) {
-    for (Entry entry(stage.next_slopes, j); entry; ++entry) {
+  for (Index j = 0; j < stage.slopes.next.cols(); ++j) {
+    for (Entry entry(stage.slopes.next, j); entry; ++entry) {
       entry.valueRef() = stage.next_per_unit(entry.row()) * stage.unit(j) *
                          next_slope(k, slopes, static_cast<int>(entry.row()), stage.variables[j]);
     }
@@ -238,7 +240,7 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   work.on_node += cost_factor * work.values.cost_gradient;
   work.on_node.noalias() += work.values.rows_jacobian.transpose() * work.on_rows;
   is_exact ? stage.arrival.pull_back_hessian(work.form, work.on_node) : stage.arrival.pull_back_form(work.form);
-  gather(stage, work.form, stage.hessian);
+  gather(stage, work.form, stage.slopes.hessian);
   if (!stage.have_values) fill_values(k, work.values);
   if (!stage.have_derivatives) fill_slopes(k, work.values);
 }
@@ -256,61 +258,36 @@ void StagewiseTranscription::linearise_to_first_order(int k, const VectorXd& ux)
 
 void StagewiseTranscription::add_condensed(int k, const MatrixXd& next_hessian, const VectorXd& weights,
                                            MatrixXd& result) {
-  Stage& stage = this->stage(k);
-  Work& work = this->work(stage);
-  const int size = stage.size.variables(), next = stage.num_next();
-  if (next > 0) {
-    const auto& slopes = stage.next_slopes;
-    work.on_states.resize(next, size);
-    kernels_.set_sparse(work.on_states, next_hessian, slopes);
-    work.on_states_transposed = work.on_states.transpose();
-    kernels_.add_lower_sparse(result, work.on_states_transposed, slopes);
-  }
-  const int rows = static_cast<int>(stage.row_gradients.cols());
-  work.weighted = stage.row_gradients * weights.head(rows).asDiagonal();
-  kernels_.add_lower(result, stage.row_gradients, work.weighted);
-  for (Index i = 0; i < stage.bound_gradients.cols(); ++i) {
-    for (Entry column(stage.bound_gradients, i); column; ++column) {
-      const double factor = weights(rows + i) * column.value();
-      for (Entry row = column; row; ++row) result(row.row(), column.row()) += factor * row.value();
-    }
-  }
+  const Stage& stage = this->stage(k);
+  work(stage).condenser.add(stage.slopes, next_hessian, weights, result);
 }
 
 void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd& next, VectorXd& inequalities) {
-  const Stage& stage = this->stage(k);
-  next.noalias() = stage.next_slopes * step;
-  inequalities.resize(stage.size.inequalities);
-  inequalities.head(stage.row_gradients.cols()).noalias() = stage.row_gradients.transpose() * step;
-  inequalities.tail(stage.bound_gradients.cols()).noalias() = stage.bound_gradients.transpose() * step;
+  stage(k).slopes.push_forward(step, next, inequalities);
 }
 
 void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const VectorXd& on_inequalities,
                                            VectorXd& gradient) {
-  const Stage& stage = this->stage(k);
-  if (on_next.size() > 0) gradient.noalias() += stage.next_slopes.transpose() * on_next;
-  if (on_inequalities.size() == 0) return;
-  gradient.noalias() += stage.row_gradients * on_inequalities.head(stage.row_gradients.cols());
-  gradient.noalias() += stage.bound_gradients * on_inequalities.tail(stage.bound_gradients.cols());
+  stage(k).slopes.add_pull_back(on_next, on_inequalities, gradient);
 }
 
 const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorXd& ux) {
   linearise_to_first_order(k, ux);
   Stage& stage = this->stage(k);
   StageDerivatives& derivatives = stage.derivatives;
-  derivatives.cost_gradient = stage.cost_gradient;
-  derivatives.equalities = stage.equality_slopes;
+  derivatives.cost_gradient = stage.slopes.cost_gradient;
+  derivatives.equalities = stage.slopes.equalities;
   derivatives.inequalities.resize(stage.size.inequalities, stage.size.variables());
-  derivatives.inequalities.topRows(stage.row_gradients.cols()) = stage.row_gradients.transpose();
-  derivatives.inequalities.bottomRows(stage.bound_gradients.cols()) = MatrixXd(stage.bound_gradients).transpose();
-  derivatives.next = stage.next_slopes;
+  derivatives.inequalities.topRows(stage.slopes.rows.cols()) = stage.slopes.rows.transpose();
+  derivatives.inequalities.bottomRows(stage.slopes.bounds.cols()) = MatrixXd(stage.slopes.bounds).transpose();
+  derivatives.next = stage.slopes.next;
   return derivatives;
 }
 
 const MatrixXd& StagewiseTranscription::hessian(int k, const VectorXd& ux, double cost_factor,
                                                 const StageMultipliers& multipliers) {
   linearise(k, ux, cost_factor, multipliers);
-  MatrixXd& hessian = stage(k).hessian;
+  MatrixXd& hessian = stage(k).slopes.hessian;
   hessian.triangularView<Eigen::StrictlyUpper>() = hessian.transpose();
   return hessian;
 }

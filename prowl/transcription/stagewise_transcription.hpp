@@ -1,15 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <string>
 #include <vector>
 
-#include "prowl/linear_algebra/matrix_kernels.hpp"
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/transcription/half_step.hpp"
 #include "prowl/transcription/node_program.hpp"
+#include "prowl/transcription/stage_slopes.hpp"
 
 namespace prowl {
 
@@ -45,9 +44,9 @@ class StagewiseTranscription : public StagewiseNlp {
 
   void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) override;
   void linearise_to_first_order(int k, const Eigen::VectorXd& ux) override;
-  const Eigen::VectorXd& cost_gradient(int k) const override { return stage(k).cost_gradient; }
-  const Eigen::MatrixXd& equality_slopes(int k) const override { return stage(k).equality_slopes; }
-  const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return stage(k).hessian; }
+  const Eigen::VectorXd& cost_gradient(int k) const override { return stage(k).slopes.cost_gradient; }
+  const Eigen::MatrixXd& equality_slopes(int k) const override { return stage(k).slopes.equalities; }
+  const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return stage(k).slopes.hessian; }
   void add_condensed(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
                      Eigen::MatrixXd& result) override;
   void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next, Eigen::VectorXd& inequalities) override;
@@ -69,7 +68,8 @@ class StagewiseTranscription : public StagewiseNlp {
   struct Work {
     NodeValues values;  ///< of the stage evaluated last
     Eigen::VectorXd on_rows, on_node, on_next, state;
-    Eigen::MatrixXd form, weighted, on_states, on_states_transposed;
+    Eigen::MatrixXd form;
+    StageCondenser condenser;
     /// (rows of the node | placement of the base | that of the next stage) in the node's variables, then in the
     /// state's.
     Eigen::MatrixXd slopes;
@@ -103,13 +103,7 @@ class StagewiseTranscription : public StagewiseNlp {
     NodePoint point;
     StageValues values;
 
-    // Last linearisation, kept during evaluations elsewhere.
-    Eigen::VectorXd cost_gradient;
-    Eigen::MatrixXd equality_slopes;
-    Eigen::MatrixXd hessian;                      ///< its lower triangle
-    Eigen::MatrixXd row_gradients;                ///< of the inequalities that are rows of the node, one per column
-    Eigen::SparseMatrix<double> bound_gradients;  ///< of those that are bounds, which follow
-    Eigen::SparseMatrix<double> next_slopes;
+    StageSlopes slopes;            ///< of the last linearisation, kept during evaluations elsewhere
     StageDerivatives derivatives;  ///< the same as dense matrices, on request
     const Eigen::VectorXd& node() const { return arrival.node(); }
     int num_next() const { return static_cast<int>(next_per_unit.size()); }
@@ -150,7 +144,6 @@ class StagewiseTranscription : public StagewiseNlp {
   /// The lower triangle, in the variables of the stage.
   static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
-  MatrixKernels kernels_;
   NodeProgram& nodes_;
   const DiscreteProblem& discrete_;
   const DecisionLayout& layout_;

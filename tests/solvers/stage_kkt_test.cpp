@@ -453,5 +453,32 @@ TEST(StageKkt, TellsWhatIsNotFinite) {
   }
 }
 
+// The states of the first stage are given: their step is kept, and the inputs follow by the gain.
+TEST(StageKkt, InputsFollowAGivenStart) {
+  std::mt19937 rng(31);
+  RandomChain chain(rng, {{4, 3, 2, 5}, {5, 4, 1, 0}, {3, 2, 1, 4}, {2, 4, 0, 1}});
+  const System system = random_system(rng, chain, 2.0);
+  chain.linearise_all();
+  StageKkt kkt(chain, StageKkt::Start::given);
+  kkt.determine_inputs();
+  ASSERT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
+  kkt.solve(system.gradient, system.equalities, system.links, kNotRefined);
+  const VectorXd at_zero = kkt.steps()[0];
+  EXPECT_EQ(at_zero.tail(3).norm(), 0.0);
+  const VectorXd start = random_vector(rng, 3, 1.0);
+  kkt.set_start(start);
+  kkt.solve(system.gradient, system.equalities, system.links, kNotRefined);
+  const VectorXd moved = kkt.steps()[0];
+  EXPECT_EQ(moved.tail(3), start);
+  MatrixXd gain(4, 3);
+  kkt.input_gain(0, gain);
+  EXPECT_GT(gain.norm(), 1e-3);
+  EXPECT_LT((moved.head(4) - at_zero.head(4) - gain * start).norm(), 1e-10 * (1.0 + gain.norm()));
+  // Both satisfy the equalities and links of the first stage.
+  const StageDerivatives& slopes = chain.parts[0].slopes;
+  EXPECT_LT((slopes.equalities * moved + system.equalities[0]).norm(), 1e-10);
+  EXPECT_LT((slopes.next * moved + system.links[0] - kkt.steps()[1].tail(4)).norm(), 1e-10);
+}
+
 }  // namespace
 }  // namespace prowl

@@ -39,16 +39,16 @@ bool has_finite_lower_triangle(const MatrixXd& square) {
 
 }  // namespace
 
-StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages()) {
+StageKkt::StageKkt(LinearisedChain& chain, Start start) : chain_(chain), num_stages_(chain.num_stages()) {
   stages_.resize(static_cast<std::size_t>(num_stages_));
   for (int k = 0; k < num_stages_; ++k) {
     Stage& s = stage(k);
-    s.size = nlp.size(k);
+    s.size = chain.size(k);
     on_equalities_.push_back(VectorXd::Zero(s.size.equalities));
     if (k + 1 == num_stages_) s.size.equalities -= static_cast<int>(num_closing());
-    if (k == 0)
+    if (k == 0 && start == Start::free)
       s.size = {s.size.variables(), 0, s.size.equalities, s.size.inequalities};  // no stage leads to these states
-    const int variables = s.size.variables(), next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
+    const int variables = s.size.variables(), next = k + 1 < num_stages_ ? chain.size(k + 1).states : 0;
     for (int i = 0; i < variables; ++i) s.order.push_back(i);
     s.P.setZero(s.size.states, s.size.states);
     s.p.setZero(s.size.states);
@@ -101,12 +101,12 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
   const int variables = s.size.variables();
   MatrixXd& condensed = work_.condensed.of_size(variables, variables);
   if (hessian_ == Hessian::lagrangian) {
-    const MatrixXd& lower = nlp_.lagrangian_hessian(k);  // above the diagonal it is undefined
+    const MatrixXd& lower = chain_.lagrangian_hessian(k);  // above the diagonal it is undefined
     for (int j = 0; j < variables; ++j) condensed.col(j).tail(variables - j) = lower.col(j).tail(variables - j);
   } else {
     condensed.setZero();
   }
-  nlp_.add_condensed(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[k], condensed);
+  chain_.add_condensed(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[k], condensed);
   condensed.diagonal().array() += delta_;
   MatrixXd* M = &condensed;
   if (s.pivoted) {
@@ -123,14 +123,14 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
 const MatrixXd& StageKkt::gather_equalities(int k) {
   Stage& s = stage(k);
   s.carried = k + 1 < num_stages_ ? stage(k + 1).passed : 0;
-  if (s.carried == 0 && s.size.equalities == nlp_.size(k).equalities) return nlp_.equality_slopes(k);
+  if (s.carried == 0 && s.size.equalities == chain_.size(k).equalities) return chain_.equality_slopes(k);
   MatrixXd& equalities = work_.equalities.of_size(s.num_equalities(), s.size.variables());
-  equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k).topRows(s.size.equalities);
+  equalities.topRows(s.size.equalities) = chain_.equality_slopes(k).topRows(s.size.equalities);
   for (int i = 0; i < s.carried; ++i) {
     VectorXd& on_next = on_next_[k];
     on_next = stage(k + 1).E.row(i).transpose();
     s.gradient.setZero(s.size.variables());
-    nlp_.add_pull_back(k, on_next, nothing_, s.gradient);
+    chain_.add_pull_back(k, on_next, nothing_, s.gradient);
     equalities.row(s.size.equalities + i) = s.gradient.transpose();
   }
   return equalities;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "prowl/linear_algebra/matrix_kernels.hpp"
-#include "prowl/nlp/stagewise_nlp.hpp"
+#include "prowl/nlp/linearised_chain.hpp"
 #include "prowl/solvers/riccati/stage_vectors.hpp"
 
 namespace prowl {
@@ -36,8 +36,12 @@ namespace prowl {
 /// refinement corrects the neglected part. No allocation while ranks stay the same.
 class StageKkt {
  public:
-  /// A view of `nlp`, which must outlive it.
-  explicit StageKkt(StagewiseNlp& nlp);
+  /// The states of the first stage are variables like its inputs (of a chain they are usually empty), or given: then
+  /// dx_0 is that of set_start(), and the inputs of the first stage follow from it by a gain.
+  enum class Start { free, given };
+
+  /// A view of `chain`, which must outlive it.
+  explicit StageKkt(LinearisedChain& chain, Start start = Start::free);
 
   enum class Hessian { lagrangian, identity };
   enum class Outcome { solvable, indefinite, not_finite };
@@ -56,6 +60,12 @@ class StageKkt {
   /// residual at which iterative refinement may stop.
   void solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
              double accuracy = 0.0);
+
+  /// dx_0 of the solutions after it; zero before. Only with Start::given.
+  void set_start(const Eigen::Ref<const Eigen::VectorXd>& states) { steps_.front().tail(states.size()) = states; }
+  /// Of the latest factorisation: du_k = gain dx_k, besides what the right-hand sides add. `gain`: inputs x states of
+  /// the stage. Not for closed chains.
+  void input_gain(int k, Eigen::Ref<Eigen::MatrixXd> gain);
 
   const StageVectors& steps() const { return steps_; }
   const StageVectors& on_equalities() const { return on_equalities_; }
@@ -129,13 +139,13 @@ class StageKkt {
   double left_out() const;
   void solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
   void solve_chain(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
-  Eigen::Index num_closing() const { return nlp_.closure().rows(); }
+  Eigen::Index num_closing() const { return chain_.closure().rows(); }
   Eigen::VectorXd along_closure() const;  ///< derivative of the closing equalities times the step
   void pull_back_closure(const Eigen::VectorXd& multipliers, StageVectors& gradient) const;
   bool factorise_closure();
   double find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
 
-  StagewiseNlp& nlp_;
+  LinearisedChain& chain_;
   MatrixKernels kernels_;
   int num_stages_;
   std::vector<Stage> stages_;
@@ -153,7 +163,8 @@ class StageKkt {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> closing_;  ///< minus the closing equalities over multipliers
   int num_negative_ = 0;  ///< negative curvatures of the chain, which its closing equalities must exclude
   Eigen::MatrixXd no_hessian_;
-  Eigen::VectorXd nothing_;  ///< no multipliers
+  Eigen::VectorXd nothing_;                      ///< no multipliers
+  Eigen::MatrixXd free_gain_, determined_gain_;  ///< work space of input_gain()
 };
 
 }  // namespace prowl

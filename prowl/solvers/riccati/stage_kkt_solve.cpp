@@ -72,21 +72,21 @@ double StageKkt::find_residual(const StageVectors& gradient, const StageVectors&
     const VectorXd& step = sum_.steps[k];
     VectorXd& violation = residual_gradient_[k];
     if (hessian_ == Hessian::lagrangian) {
-      violation.noalias() += nlp_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step;
+      violation.noalias() += chain_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step;
     }
     violation += delta_ * step;
-    violation.noalias() += nlp_.equality_slopes(k).transpose() * sum_.on_equalities[k];
+    violation.noalias() += chain_.equality_slopes(k).transpose() * sum_.on_equalities[k];
     if (k == 0 && num_closing() > 0)
-      violation.noalias() += nlp_.closure().transpose() * sum_.on_equalities.back().tail(num_closing());
+      violation.noalias() += chain_.closure().transpose() * sum_.on_equalities.back().tail(num_closing());
     residual_inequalities_[k] = weights_[k].cwiseProduct(sum_.along_inequalities[k]);
-    nlp_.add_pull_back(k, sum_.on_next[k], residual_inequalities_[k], violation);
+    chain_.add_pull_back(k, sum_.on_next[k], residual_inequalities_[k], violation);
     if (k > 0) violation.tail(stage(k).size.states) -= sum_.on_next[k - 1];
-    residual_equalities_[k].noalias() += nlp_.equality_slopes(k) * step;
+    residual_equalities_[k].noalias() += chain_.equality_slopes(k) * step;
     if (k + 1 == num_stages_ && num_closing() > 0)
-      residual_equalities_[k].tail(num_closing()).noalias() += nlp_.closure() * sum_.steps.front();
+      residual_equalities_[k].tail(num_closing()).noalias() += chain_.closure() * sum_.steps.front();
     if (k + 1 == num_stages_) continue;
     VectorXd& next = residual_next_[k];
-    nlp_.push_forward(k, step, next, residual_inequalities_[k]);
+    chain_.push_forward(k, step, next, residual_inequalities_[k]);
     residual_links_[k] += next - sum_.steps[k + 1].tail(next.size());
   }
   return std::max({largest(residual_gradient_), largest(residual_equalities_), largest(residual_links_)});
@@ -105,14 +105,14 @@ void StageKkt::solve_once(const StageVectors& gradient, const StageVectors& equa
 }
 
 VectorXd StageKkt::along_closure() const {
-  return nlp_.closure() * steps_.front() +
-         nlp_.equality_slopes(num_stages_ - 1).bottomRows(num_closing()) * steps_.back();
+  return chain_.closure() * steps_.front() +
+         chain_.equality_slopes(num_stages_ - 1).bottomRows(num_closing()) * steps_.back();
 }
 
 void StageKkt::pull_back_closure(const VectorXd& multipliers, StageVectors& gradient) const {
-  gradient.front().noalias() += nlp_.closure().transpose() * multipliers;
+  gradient.front().noalias() += chain_.closure().transpose() * multipliers;
   gradient.back().noalias() +=
-      nlp_.equality_slopes(num_stages_ - 1).bottomRows(num_closing()).transpose() * multipliers;
+      chain_.equality_slopes(num_stages_ - 1).bottomRows(num_closing()).transpose() * multipliers;
 }
 
 /// Column by column, by the step that one multiplier causes. False if the closed chain has a negative curvature.
@@ -153,7 +153,7 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
     VectorXd& on_next = on_next_[k];
     on_next = next.p;
     on_next.noalias() += next.P * *link;
-    nlp_.add_pull_back(k, on_next, nothing_, s.gradient);
+    chain_.add_pull_back(k, on_next, nothing_, s.gradient);
     if (s.carried > 0) {
       s.c.tail(s.carried) = next.e;
       s.c.tail(s.carried).noalias() += next.E * *link;
@@ -193,6 +193,7 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
 void StageKkt::forward(int k, const VectorXd* link) {
   Stage& s = stage(k);
   VectorXd& step = steps_[k];
+  if (k == 0) s.on_carried.setZero(s.passed);  // nothing comes before a given start
   s.step.resize(step.size());
   s.step.tail(s.size.states) = step.tail(s.size.states);
   if (s.free() > 0) {
@@ -213,7 +214,7 @@ void StageKkt::forward(int k, const VectorXd* link) {
   for (Index i = 0; i < step.size(); ++i) step(s.order[i]) = s.step(i);
 
   find_multipliers(k);
-  nlp_.push_forward(k, step, on_next_[k], along_inequalities_[k]);
+  chain_.push_forward(k, step, on_next_[k], along_inequalities_[k]);
   if (!link) return;
   Stage& next = stage(k + 1);
   auto dx = steps_[k + 1].tail(next.size.states);
@@ -221,6 +222,17 @@ void StageKkt::forward(int k, const VectorXd* link) {
   on_next_[k] = next.p;
   on_next_[k].noalias() += next.P * dx;
   if (s.carried > 0) on_next_[k].noalias() += next.E.transpose() * next.on_carried;
+}
+
+void StageKkt::input_gain(int k, Eigen::Ref<Eigen::MatrixXd> gain) {
+  const Stage& s = stage(k);
+  const int free = s.free(), states = s.size.states;
+  free_gain_ = -s.G.transpose();
+  if (free > 0) s.L.triangularView<Eigen::Lower>().transpose().solveInPlace(free_gain_);
+  determined_gain_ = s.K.bottomRows(states).transpose();
+  determined_gain_.noalias() += s.K.topRows(free).transpose() * free_gain_;
+  for (int i = 0; i < s.size.inputs; ++i)
+    gain.row(s.order[i]) = i < s.rank ? determined_gain_.row(i) : free_gain_.row(i - s.rank);
 }
 
 /// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. The
