@@ -14,7 +14,7 @@ struct ContactPositionCost {
 
 /// Quadratic cost of one instant:
 ///
-///   w_t + 1/2 ( |q (-) q_ref|^2_Wq + |v|^2_Wv + |a|^2_Wa + |tau - tau_ref|^2_Wtau + sum_c |f_c|^2_Wf )
+///   w_t + 1/2 ( |q (-) q_ref|^2_Wq + |v - v_ref|^2_Wv + |a|^2_Wa + |tau - tau_ref|^2_Wtau + sum_c |f_c|^2_Wf )
 ///   + costs of contact positions
 ///
 /// with diagonal weights >= 0. w_t is a cost of time, for phases of free duration. The running cost is its
@@ -32,6 +32,7 @@ struct QuadraticCost {
   double time_weight = 0.0;             ///< w_t [1/s]; 0 in a terminal cost
   Eigen::Vector3d force_weight = Eigen::Vector3d::Zero();  ///< world x y z, the same for every contact [1/N^2]
   std::vector<ContactPositionCost> contact_positions;
+  Eigen::VectorXd v_ref = {};  ///< nv; empty: zero
 };
 
 /// 1/2 |difference(q_ref, q)|^2_W with its derivatives in the tangent at q (configuration.hpp).

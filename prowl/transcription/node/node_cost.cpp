@@ -18,6 +18,13 @@ NodeCost::NodeCost(const MotionProblem& problem)
       running_(problem.running_cost),
       terminal_(problem.terminal_cost) {}
 
+void NodeCost::refer_to(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& v_ref) {
+  for (StateCost* state : {&running_, &terminal_}) {
+    state->cost.q_ref = q_ref;
+    state->cost.v_ref = v_ref;
+  }
+}
+
 NodeCost::StateCost::StateCost(const QuadraticCost& quadratic)
     : cost(quadratic), points(contacts_of(quadratic.contact_positions)), stiffness(points.rows()), pull(points.rows()) {
   for (std::size_t i = 0; i < cost.contact_positions.size(); ++i) {
@@ -27,7 +34,9 @@ NodeCost::StateCost::StateCost(const QuadraticCost& quadratic)
 
 double NodeCost::StateCost::value(const NodePoint& point, const RigidBodyTerms& terms) {
   configuration_cost(cost.q_ref, cost.configuration_weight, point.q, configuration);
-  double value = configuration.value + 0.5 * point.v.cwiseAbs2().dot(cost.velocity_weight);
+  velocity = point.v;
+  if (cost.v_ref.size() > 0) velocity -= cost.v_ref;
+  double value = configuration.value + 0.5 * velocity.cwiseAbs2().dot(cost.velocity_weight);
   if (cost.contact_positions.empty()) return value;
   points.set_configuration(terms);
   for (std::size_t i = 0; i < cost.contact_positions.size(); ++i) {
@@ -59,7 +68,7 @@ double NodeCost::value(const NodePoint& point, const RigidBodyTerms& terms, cons
 void NodeCost::StateCost::add_gradient(double weight, const NodePoint& point, Eigen::VectorXd& gradient) {
   const Eigen::Index nv = point.v.size();
   gradient.head(nv) += weight * configuration.gradient;
-  gradient.segment(nv, nv) += weight * cost.velocity_weight.cwiseProduct(point.v);
+  gradient.segment(nv, nv) += weight * cost.velocity_weight.cwiseProduct(velocity);
   if (!cost.contact_positions.empty()) {
     gradient.head(nv).noalias() += weight * (points.positions_dq().transpose() * pull);
   }

@@ -14,6 +14,9 @@ class NodeCost {
  public:
   explicit NodeCost(const MotionProblem& problem);
 
+  /// Replaces q_ref (nq) and v_ref (nv) of both costs.
+  void refer_to(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& v_ref);
+
   /// `terms`: at the configuration of the point; `forces`: 3 per contact of the phase, world frame
   /// [N].
   double value(const NodePoint& point, const RigidBodyTerms& terms, const Eigen::VectorXd& forces);
@@ -46,6 +49,7 @@ class NodeCost {
     QuadraticCost cost;
     ContactKinematics points;  ///< contacts with a position cost
     ConfigurationCost configuration;
+    Eigen::VectorXd velocity;         ///< v - v_ref
     Eigen::VectorXd stiffness, pull;  ///< of their positions
     Eigen::MatrixXd stiff_points;
   };

@@ -58,7 +58,7 @@ double cone_smoothing(const MotionProblem& problem, const Phase& phase, const Ph
 }
 
 NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
-                             const StabilisationOfStep& stabilisation)
+                             const StabilisationOfStep& stabilisation, PlacementKind placement)
     : nv_(discrete.problem.robot.nv()),
       nu_(discrete.problem.robot.nu()),
       num_chosen_(static_cast<int>(contacts.chosen_rows.size())),
@@ -67,7 +67,8 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
       stabilisation_(stabilisation),
       per_gain_step_(per_gain_step(discrete, phase)),
       torques_(discrete.problem.robot),
-      placement_(discrete, phase, contacts.landing),
+      placement_(placement == PlacementKind::motion_of_contacts ? PlacementRows::motion_of_contacts(discrete, phase)
+                                                                : PlacementRows(discrete, phase, contacts.landing)),
       terms_(discrete, phase),
       cost_(discrete.problem),
       term_costs_(discrete, phase),
@@ -326,8 +327,11 @@ void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const 
     add_limits_hessian(point, multipliers, hessian);
     for (Index row = 0; row < multipliers.size(); ++row) pull += multipliers(row) * rotation_.row(row).transpose();
   } else {
-    no_multipliers_.setZero(multipliers.size());
-    set_force_hessian(point, cost_factor, no_multipliers_, hessian);
+    const int forces = contact_row(point.node, 0), end = torque_row(point.node);
+    on_cones_.setZero(multipliers.size());
+    if (hessian_kind_ == HessianKind::gauss_newton_with_cones)
+      on_cones_.segment(forces, end - forces) = multipliers.segment(forces, end - forces);
+    set_force_hessian(point, cost_factor, on_cones_, hessian);
   }
   add_cost_hessian(point, cost_factor, hessian);
   // From the tangent at R to theta, R = chart exp(theta): x = Jr dtheta + 1/2 (DJr[dtheta]) dtheta.

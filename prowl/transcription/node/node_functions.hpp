@@ -31,6 +31,10 @@ struct PhaseContacts {
   std::vector<LandingAxes> landing;  ///< per contact of the phase
 };
 
+/// Rows on the placement of contacts: those that the schedule asks for, or those of
+/// PlacementRows::motion_of_contacts().
+enum class PlacementKind { of_schedule, motion_of_contacts };
+
 /// Gains kd = rate / h + damping and kp = stiffness / h^2 + spring of the contact stabilisation,
 /// for a step h (docs/transcription.md#contacts). The defaults, for the trapezoid, reduce an error
 /// by a factor of three from node to node.
@@ -66,7 +70,10 @@ struct NodeValues {
 class NodeFunctions {
  public:
   NodeFunctions(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
-                const StabilisationOfStep& stabilisation = {});
+                const StabilisationOfStep& stabilisation = {}, PlacementKind placement = PlacementKind::of_schedule);
+
+  /// Replaces q_ref (nq) and v_ref (nv) of running and terminal cost.
+  void refer_to(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& v_ref) { cost_.refer_to(q_ref, v_ref); }
 
   int num_variables() const { return 3 * nv_ + nu_ + num_chosen_; }  ///< of a node
   int num_shared() const { return (free_duration_ ? 1 : 0) + num_foothold_variables(); }
@@ -80,6 +87,9 @@ class NodeFunctions {
 
   int num_rows(int k) const { return term_row(k) + terms_.count(k); }
   int placement_row(int k) const { return torque_row(k) + torques_.count(); }  ///< first row of the placement
+  int torque_row(int k) const { return contact_row(k, num_contacts()); }
+  int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of all
+  int num_contacts() const { return static_cast<int>(friction_.size()); }
   int term_row(int k) const { return placement_row(k) + placement_.count(k); }
   double lower(int k, int row) const;
   double upper(int k, int row) const;
@@ -112,10 +122,7 @@ class NodeFunctions {
  private:
   int num_foothold_variables() const { return 2 * static_cast<int>(landed_.size()); }
   int first_foothold_variable() const { return num_variables() + (free_duration_ ? 1 : 0); }
-  int num_contacts() const { return static_cast<int>(friction_.size()); }
   bool unloads(int k, int contact) const { return k == intervals_ && opens_[contact]; }
-  int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of all
-  int torque_row(int k) const { return contact_row(k, num_contacts()); }
 
   void set_point(const NodePoint& point);
   void fill_rows(const NodePoint& point, NodeValues& values);
@@ -162,8 +169,8 @@ class NodeFunctions {
   Eigen::Matrix<double, Eigen::Dynamic, 3> rotation_;  ///< of rows_jacobian, in the tangent of the rotation
   Eigen::Vector3d rotation_gradient_;                  ///< of the cost, likewise
   Eigen::VectorXd mu_, force_pull_, joints_, rates_;
-  NodeValues unused_;  ///< values of hessian()
-  Eigen::VectorXd no_multipliers_;
+  NodeValues unused_;         ///< values of hessian()
+  Eigen::VectorXd on_cones_;  ///< multipliers without all others
 };
 
 }  // namespace prowl

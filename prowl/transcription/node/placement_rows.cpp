@@ -29,14 +29,42 @@ double clearance_profile(const ContactSwing& swing, double s) {
 
 }  // namespace
 
-PlacementRows::PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
-                             int intervals_at_rest)
+PlacementRows::PlacementRows(const DiscreteProblem& discrete, int phase)
     : length_(discrete.problem.robot.size()),
       speed_(std::sqrt(RobotModel::kGravity * length_)),
+      rows_(static_cast<std::size_t>(discrete.mesh.phases[phase].intervals()) + 1),
       kinematics_({}),
       at_rest_(Eigen::VectorXd::Zero(discrete.problem.robot.nv())),
-      second_(discrete.problem.robot.nv()) {
-  rows_.resize(discrete.mesh.phases[phase].intervals() + 1);
+      second_(discrete.problem.robot.nv()) {}
+
+PlacementRows PlacementRows::motion_of_contacts(const DiscreteProblem& discrete, int phase) {
+  PlacementRows result(discrete, phase);
+  const Surface& surface = discrete.problem.surfaces.front();
+  const std::vector<ContactPoint>& contacts = discrete.problem.robot.contacts();
+  for (int c = 0; c < static_cast<int>(contacts.size()); ++c) {
+    const ContactPoint& contact = contacts[c];
+    const Row row{Kind::clearance,
+                  result.point_of(c),
+                  -1,
+                  surface.normal,
+                  surface.normal.dot(surface.point) + contact.radius,
+                  -std::numeric_limits<double>::infinity(),
+                  1.0 / result.length_,
+                  contact.name + ", height above " + surface.name};
+    for (std::vector<Row>& rows : result.rows_) {
+      rows.push_back(row);
+      for (int axis = 0; axis < 3; ++axis)
+        rows.push_back({Kind::velocity, row.point, -1, surface.frame().col(axis), 0.0,
+                        -std::numeric_limits<double>::infinity(), 1.0 / result.speed_, contact.name + ", velocity"});
+    }
+  }
+  result.kinematics_ = ContactKinematics(result.points_);
+  return result;
+}
+
+PlacementRows::PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
+                             int intervals_at_rest)
+    : PlacementRows(discrete, phase) {
   add_landing(discrete, phase, landing);
   for (const ContactSwing& swing : discrete.schedule.swings()) {
     if (swing.first_phase <= phase && phase <= swing.last_phase)

@@ -32,6 +32,10 @@ class PlacementRows {
   PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
                 int intervals_at_rest = 0);
 
+  /// Instead, at each node, four rows for every contact of the robot: its height above the first surface,
+  /// normal . (p - point) - radius, and its velocity along the surface's axes and normal. The caller sets their bounds.
+  static PlacementRows motion_of_contacts(const DiscreteProblem& discrete, int phase);
+
   int most_rows() const;  ///< largest over all nodes
   int count(int k) const { return static_cast<int>(rows_[k].size()); }
   double lower(int k, int row) const { return at(k, row).lower; }
@@ -55,6 +59,7 @@ class PlacementRows {
                    Eigen::Ref<Eigen::MatrixXd> vq);
 
  private:
+  PlacementRows(const DiscreteProblem& discrete, int phase);
   struct Row {
     Kind kind;
     int point;             ///< index of the contact among the points of kinematics_
