@@ -1,0 +1,150 @@
+#include "prowl/mpc/barrier_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace prowl {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Part of a distance or multiplier that a step leaves at least.
+constexpr double kKept = 0.05;
+/// Multipliers stay within this factor of mu / d, as in Wächter and Biegler 2006, eq. (16).
+constexpr double kSpread = 1e4;
+constexpr double kLeastDistance = 1e-9;
+
+}  // namespace
+
+BarrierRows::BarrierRows(Index rows) : penalty_(VectorXd::Constant(rows, kHard)) {
+  lower_.sign = 1.0;
+  upper_.sign = -1.0;
+  for (Side* side : {&lower_, &upper_}) {
+    side->at.setConstant(rows, -side->sign * kHard);
+    side->d.setOnes(rows);
+    side->z.setZero(rows);
+    side->t.setZero(rows);
+    side->target.setZero(rows);
+    side->compliance.setOnes(rows);
+    side->gap.setZero(rows);
+  }
+}
+
+void BarrierRows::set_bounds(Index row, double lower, double upper, double penalty) {
+  for (const auto& [side, at] : {std::pair(&lower_, lower), std::pair(&upper_, upper)}) {
+    if (!is_bound(*side, row)) side->z(row) = 0.0;
+    side->at(row) = at;
+  }
+  penalty_(row) = penalty;
+}
+
+void BarrierRows::reset() {
+  lower_.z.setZero();
+  upper_.z.setZero();
+}
+
+/// On the central path of this value: z (gap + t) = mu, (penalty - z) t = mu.
+void BarrierRows::center(Side& side, Index row, double value, double mu) {
+  const double g = gap(side, row, value);
+  if (!is_soft(row)) {
+    side.d(row) = std::max(g, std::sqrt(mu));
+    side.z(row) = mu / side.d(row);
+    side.t(row) = 0.0;
+    return;
+  }
+  // (d - t = g, mu / d + mu / t = penalty): penalty t^2 + (penalty g - 2 mu) t - mu g = 0
+  const double rho = penalty_(row), b = rho * g - 2.0 * mu;
+  const double root = std::hypot(rho * g, 2.0 * mu);  // b^2 + 4 rho mu g = (rho g)^2 + (2 mu)^2
+  const double t = b > 0.0 ? 2.0 * mu * g / (b + root) : (root - b) / (2.0 * rho);
+  side.t(row) = std::max(t, mu / rho);
+  side.d(row) = std::max(g + side.t(row), mu / rho);
+  side.z(row) = std::min(mu / side.d(row), 0.999 * rho);
+}
+
+void BarrierRows::take_over(const BarrierRows& from, double factor) {
+  const auto take = [factor](const Side& source, Side& side) {
+    side.at = source.at;
+    side.d = source.d;
+    side.z = factor * source.z;
+    side.t = source.t;
+  };
+  take(from.lower_, lower_);
+  take(from.upper_, upper_);
+}
+
+void BarrierRows::linearise(const VectorXd& values, double mu, VectorXd& weights, VectorXd& pull) {
+  mu_ = mu;
+  weights.setZero(size());
+  pull.setZero(size());
+  for (Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (!is_bound(*side, row)) continue;
+      if (!(side->z(row) > 0.0)) center(*side, row, values(row), mu);
+      double &d = side->d(row), &z = side->z(row), &t = side->t(row);
+      double target = mu / z - d, compliance = d / z;
+      if (is_soft(row)) {
+        // A penalty or a multiplier that was just scaled may not fit any more.
+        z = std::min(z, 0.999 * penalty_(row));
+        const double y = penalty_(row) - z;
+        if (!(t > 0.0)) t = mu / y;
+        target = mu / z - d - (mu / y - t);
+        compliance = d / z + t / y;
+      }
+      side->gap(row) = gap(*side, row, values(row));
+      target -= side->gap(row) - (d - (is_soft(row) ? t : 0.0));
+      side->target(row) = target;
+      side->compliance(row) = compliance;
+      weights(row) += 1.0 / compliance;
+      pull(row) -= side->sign * (z + target / compliance);
+    }
+  }
+}
+
+double BarrierRows::step(const VectorXd& change) {
+  double farthest = 0.0;
+  for (Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (!is_bound(*side, row)) continue;
+      double &d = side->d(row), &z = side->z(row), &t = side->t(row);
+      const double dz = (side->target(row) - side->sign * change(row)) / side->compliance(row);
+      const double dd = mu_ / z - d - d / z * dz;
+      if (is_soft(row)) {
+        const double y = penalty_(row) - z;
+        const double dt = mu_ / y - t + t / y * dz;
+        t = std::max(t + dt, kKept * t);
+        z = std::clamp(z + dz, kKept * z, penalty_(row) - kKept * y);
+      } else {
+        z = std::max(z + dz, kKept * z);
+      }
+      d = std::max({d + dd, kKept * d, kLeastDistance});
+      const double central = mu_ / d;
+      z = std::clamp(z, central / kSpread, std::max(central * kSpread, central / kSpread));
+      const double now = side->gap(row) + side->sign * change(row);
+      farthest = std::max(farthest, std::abs(now - (d - (is_soft(row) ? t : 0.0))));
+    }
+  }
+  return farthest;
+}
+
+void BarrierRows::multipliers(VectorXd& result) const {
+  result.setZero(size());
+  for (const Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (is_bound(*side, row)) result(row) -= side->sign * side->z(row);
+    }
+  }
+}
+
+double BarrierRows::largest_breach(const VectorXd& values) const {
+  double largest = 0.0;
+  for (const Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (is_bound(*side, row)) largest = std::max(largest, -gap(*side, row, values(row)));
+    }
+  }
+  return largest;
+}
+
+}  // namespace prowl

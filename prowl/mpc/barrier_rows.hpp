@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+namespace prowl {
+
+/// Inequalities lower <= r <= upper of one stage in an interior-point method whose barrier parameter mu stays fixed.
+/// Each finite bound has a distance d > 0, a multiplier z > 0, and, if it may give way, an elastic variable t > 0 at
+/// the price of `penalty` a unit: an exact penalty, which is 0 where the bound can be kept.
+///
+///   sign (r - bound) = d - t,   z d = mu,   (penalty - z) t = mu
+///
+/// Distances and multipliers need not fit each other: a measured state comes as it is. A step in r is taken as a whole,
+/// and each bound keeps its own share of its step, so that one bound does not stop the others.
+class BarrierRows {
+ public:
+  static constexpr double kHard = std::numeric_limits<double>::infinity();
+
+  explicit BarrierRows(Eigen::Index rows);
+
+  Eigen::Index size() const { return lower_.at.size(); }
+  /// A bound that was infinite before starts on the central path at the next linearisation.
+  void set_bounds(Eigen::Index row, double lower, double upper, double penalty);
+  /// Lets all bounds start like that.
+  void reset();
+  /// Takes distances, multipliers and elastic variables over from a neighbouring stage; multipliers times `factor`.
+  void take_over(const BarrierRows& from, double factor);
+
+  /// Newton's equations: weight of each row in the Hessian, and its pull: the derivative of the Lagrangian in r.
+  void linearise(const Eigen::VectorXd& values, double mu, Eigen::VectorXd& weights, Eigen::VectorXd& pull);
+  /// After linearise(): a step of the rows. Returns how far distances then are from the rows, at most [units of rows].
+  double step(const Eigen::VectorXd& change);
+  /// Multipliers of the rows in the Lagrangian: negative at lower bounds.
+  void multipliers(Eigen::VectorXd& result) const;
+  /// Largest elastic variable [units of the rows] beyond what the barrier leaves.
+  double largest_breach(const Eigen::VectorXd& values) const;
+
+ private:
+  struct Side {
+    double sign = 1.0;
+    Eigen::VectorXd at, d, z, t;
+    Eigen::VectorXd target, compliance;  ///< dz = (target - sign change) / compliance
+    Eigen::VectorXd gap;                 ///< of the latest linearise()
+  };
+  bool is_bound(const Side& side, Eigen::Index row) const { return std::abs(side.at(row)) < kHard; }
+  bool is_soft(Eigen::Index row) const { return penalty_(row) < kHard; }
+  void center(Side& side, Eigen::Index row, double value, double mu);
+  double gap(const Side& side, Eigen::Index row, double value) const { return side.sign * (value - side.at(row)); }
+
+  Side lower_, upper_;
+  Eigen::VectorXd penalty_;
+  double mu_ = 0.0;
+};
+
+}  // namespace prowl

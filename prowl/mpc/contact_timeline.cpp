@@ -1,0 +1,91 @@
+#include "prowl/mpc/contact_timeline.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace prowl {
+namespace {
+
+constexpr std::size_t kMostSwings = 64;   // of a foot at a time; a horizon contains two or three
+constexpr double kRemembered = 1.0;       // [s]
+constexpr double kShortestStance = 0.02;  // between two swings of a foot [s]
+
+}  // namespace
+
+ContactTimeline::ContactTimeline(int num_feet, double start)
+    : next_lift_(start), swings_(static_cast<std::size_t>(num_feet)) {
+  for (std::vector<Swing>& swings : swings_) swings.reserve(kMostSwings);
+}
+
+void ContactTimeline::follow(const SteppingPattern& pattern) {
+  pattern_ = pattern;
+  next_group_ = 0;
+}
+
+void ContactTimeline::extend(double now, double until) {
+  for (std::vector<Swing>& swings : swings_) {
+    while (!swings.empty() && swings.front().land < now - kRemembered) swings.erase(swings.begin());
+  }
+  if (pattern_.stands()) {
+    next_lift_ = std::max(next_lift_, until);
+    return;
+  }
+  while (next_lift_ < until) {
+    for (const int foot : pattern_.groups[next_group_]) {
+      std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];
+      const double lift = swings.empty() ? next_lift_ : std::max(next_lift_, swings.back().land + kShortestStance);
+      if (swings.size() < kMostSwings) swings.push_back({lift, lift + pattern_.swing(), lift + pattern_.swing()});
+    }
+    next_lift_ += pattern_.stride / static_cast<double>(pattern_.groups.size());
+    next_group_ = (next_group_ + 1) % pattern_.groups.size();
+  }
+}
+
+const ContactTimeline::Swing* ContactTimeline::swing(int foot, double t) const {
+  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+    if (swing.lift <= t && t < swing.land) return &swing;
+  }
+  return nullptr;
+}
+
+double ContactTimeline::next_landing(int foot, double t) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+    if (swing.land > t) next = std::min(next, swing.land);
+  }
+  return next;
+}
+
+void ContactTimeline::add_switches(double from, double to, std::vector<double>& switches) const {
+  for (const std::vector<Swing>& swings : swings_) {
+    for (const Swing& swing : swings) {
+      for (const double t : {swing.lift, swing.land}) {
+        if (t > from && t < to) switches.push_back(t);
+      }
+    }
+  }
+}
+
+void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
+  Swing* latest = nullptr;
+  for (Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+    if (swing.lift <= t) latest = &swing;
+  }
+  if (!latest || latest->has_touched) return;
+  if (touches && t > 0.5 * (latest->lift + latest->planned)) {
+    latest->land = std::min(latest->land, t);
+    latest->has_touched = true;
+  } else if (!touches && t < latest->planned + kMostLate) {
+    latest->land = std::max(latest->land, t + soon);
+  }
+}
+
+double ContactTimeline::lateness(int foot, double t) const {
+  double late = 0.0;
+  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+    if (swing.lift <= t) late = swing.has_touched ? 0.0 : std::max(0.0, t - swing.planned);
+  }
+  return late;
+}
+
+}  // namespace prowl

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+namespace prowl {
+
+/// Feet that swing one group after the other, for ever. Without groups the robot stands.
+struct SteppingPattern {
+  std::vector<std::vector<int>> groups;  ///< indices of feet, in the order in which they lift off
+  double stride = 0.6;                   ///< time in which each group swings once [s]
+  double duty_factor = 0.6;              ///< part of a stride in which a foot stands [-]
+
+  bool stands() const { return groups.empty(); }
+  double swing() const { return (1.0 - duty_factor) * stride; }  ///< duration of a swing [s]
+};
+
+/// Swings of each foot in absolute time. A pattern fills it from its end: a change of pattern never alters what a
+/// controller has planned already. Detected contacts move single landings. No allocation after construction.
+class ContactTimeline {
+ public:
+  struct Swing {
+    double lift = 0.0, land = 0.0;  ///< [s]
+    double planned = 0.0;           ///< landing before any was felt to be early or late [s]
+    bool has_touched = false;       ///< its landing was felt
+  };
+
+  /// All feet stand from `start` [s] on.
+  ContactTimeline(int num_feet, double start);
+
+  /// Continues with this pattern. Its feet must be those of the timeline.
+  void follow(const SteppingPattern& pattern);
+  const SteppingPattern& pattern() const { return pattern_; }
+  /// Adds the swings that begin before `until` [s], and forgets those that ended long before `now` [s].
+  void extend(double now, double until);
+
+  int num_feet() const { return static_cast<int>(swings_.size()); }
+  /// The swing at time t [s], or nullptr: the foot stands. A foot stands at the moment of its landing.
+  const Swing* swing(int foot, double t) const;
+  /// The first landing after t [s] of a foot, or infinity.
+  double next_landing(int foot, double t) const;
+  /// Appends lift-offs and landings between both times [s], unordered.
+  void add_switches(double from, double to, std::vector<double>& switches) const;
+  /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has
+  /// landed. One that does not touch lands at t + `soon` [s] at the earliest, but at most kMostLate later than planned.
+  void feel(int foot, bool touches, double t, double soon);
+  /// Time by which the latest landing before t or the next one is late [s]; 0 if it is not.
+  double lateness(int foot, double t) const;
+
+  static constexpr double kMostLate = 0.15;  ///< [s]
+
+ private:
+  SteppingPattern pattern_;
+  std::size_t next_group_ = 0;
+  double next_lift_;
+  std::vector<std::vector<Swing>> swings_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,136 @@
+#include "prowl/mpc/horizon_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kFirstRegularisation = 1e-4, kGrowth = 8.0, kDecrease = 0.25, kMost = 1e4;
+/// Largest change of a state by one step, in units of the stages: beyond it the linearisation means nothing.
+constexpr double kLargestStep = 10.0;
+
+}  // namespace
+
+HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterations)
+    : program_(program), kkt_(program, StageKkt::Start::given), barrier_(barrier), iterations_(iterations) {
+  const StageSize& size = program.size(0);
+  for (int k = 0; k < program.num_stages(); ++k) {
+    rows_.emplace_back(size.inequalities);
+    weights_.emplace_back(VectorXd::Zero(size.inequalities));
+    pull_.emplace_back(VectorXd::Zero(size.inequalities));
+    inequalities_.emplace_back(VectorXd::Zero(size.inequalities));
+    gradient_.emplace_back(VectorXd::Zero(size.variables()));
+    step_.emplace_back(VectorXd::Zero(size.variables()));
+    equalities_.emplace_back(VectorXd::Zero(size.equalities));
+    links_.emplace_back(VectorXd::Zero(k + 1 < program.num_stages() ? size.states : 0));
+  }
+  states_.setZero(size.states);
+  gain_.setZero(size.inputs, size.states);
+}
+
+bool HorizonSolver::prepare() {
+  const int stages = program_.num_stages();
+  mean_length_ = 0.0;
+  for (int k = 0; k < stages; ++k) mean_length_ += program_.step(k).length / stages;
+  violation_ = 0.0;
+  try {
+    for (int k = 0; k < stages; ++k) {
+      program_.linearise(k);
+      equalities_[k] = program_.equalities(k);
+      links_[k] = program_.link(k);
+      inequalities_[k] = program_.inequalities(k);
+      step_[k].setZero();
+      violation_ = std::max(violation_, equalities_[k].lpNorm<Eigen::Infinity>());
+      if (k + 1 < stages) violation_ = std::max(violation_, links_[k].lpNorm<Eigen::Infinity>());
+      if (!program_.cost_gradient(k).allFinite() || !is_finite(program_.equality_slopes(k))) return false;
+    }
+  } catch (const NumericalError&) {
+    return false;
+  }
+  if (!std::isfinite(violation_)) return false;
+  set_gradient();
+  kkt_.determine_inputs();
+  return factorise();
+}
+
+/// At the variables plus the step so far.
+void HorizonSolver::set_gradient() {
+  for (int k = 0; k < program_.num_stages(); ++k) {
+    const double barrier = barrier_ * program_.step(k).length / mean_length_;
+    rows_[k].linearise(inequalities_[k], barrier, weights_[k], pull_[k]);
+    gradient_[k] = program_.cost_gradient(k);
+    gradient_[k].noalias() += program_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step_[k];
+    program_.add_pull_back(k, nothing_, pull_[k], gradient_[k]);
+  }
+}
+
+bool HorizonSolver::factorise() {
+  double delta = regularisation_ > kFirstRegularisation ? kDecrease * regularisation_ : 0.0;
+  while (true) {
+    const StageKkt::Outcome outcome = kkt_.factorise(StageKkt::Hessian::lagrangian, delta, weights_);
+    if (outcome == StageKkt::Outcome::solvable) break;
+    if (outcome == StageKkt::Outcome::not_finite || delta > kMost) return false;
+    delta = delta == 0.0 ? kFirstRegularisation : kGrowth * delta;
+  }
+  regularisation_ = delta;
+  return true;
+}
+
+bool HorizonSolver::solve() {
+  kkt_.set_start(states_);
+  kkt_.solve(gradient_, equalities_, links_, std::numeric_limits<double>::infinity());
+  states_.setZero();
+  residual_ = 0.0;
+  for (int k = 0; k < program_.num_stages(); ++k) {
+    if (!kkt_.steps()[k].allFinite() || !kkt_.on_equalities()[k].allFinite()) return false;
+    residual_ = std::max(residual_, rows_[k].step(kkt_.along_inequalities()[k]));
+    step_[k] += kkt_.steps()[k];
+    inequalities_[k] += kkt_.along_inequalities()[k];
+    equalities_[k].setZero();
+    links_[k].setZero();
+  }
+  return true;
+}
+
+bool HorizonSolver::step(const VectorXd& q, const VectorXd& v) {
+  const int stages = program_.num_stages();
+  program_.to_states(0, q, v, states_);
+  states_ -= program_.variables(0).tail(states_.size());
+  start_ = states_;
+  if (!solve()) return false;
+  for (done_ = 1; done_ < iterations_ && residual_ > kTolerance; ++done_) {
+    set_gradient();
+    if (!factorise() || !solve()) return false;
+  }
+  if (residual_ > kUnsolved) return false;
+  double largest = 0.0;
+  for (int k = 0; k < stages; ++k)
+    largest = std::max(largest, step_[k].tail(program_.size(k).states).lpNorm<Eigen::Infinity>());
+  share_ = std::min(1.0, kLargestStep / largest);
+  for (int k = 0; k < stages; ++k) {
+    VectorXd& ux = program_.variables(k);
+    ux += share_ * step_[k];
+    HorizonProgram::Multipliers& on = program_.multipliers(k);
+    on.equalities += share_ * (kkt_.on_equalities()[k] - on.equalities);
+    if (k + 1 < stages) on.next += share_ * (kkt_.on_next()[k] - on.next);
+    rows_[k].multipliers(on.inequalities);
+  }
+  program_.variables(0).tail(start_.size()) += (1.0 - share_) * start_;  // the start is where it is
+  return true;
+}
+
+void HorizonSolver::torque_gain(int k, Eigen::Ref<Eigen::MatrixXd> gain) {
+  const Eigen::Index states = program_.size(k).states;
+  const int nv = program_.robot().nv(), nu = program_.robot().nu();
+  kkt_.input_gain(k, gain_);
+  gain = program_.unit().segment(nv, nu).asDiagonal() * gain_.middleRows(nv, nu) *
+         program_.unit().tail(states).cwiseInverse().asDiagonal();
+}
+
+}  // namespace prowl

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "prowl/dynamics/forward_dynamics.hpp"
+#include "prowl/mpc/contact_timeline.hpp"
+#include "prowl/mpc/horizon_grid.hpp"
+#include "prowl/mpc/horizon_program.hpp"
+#include "prowl/mpc/horizon_solver.hpp"
+#include "prowl/mpc/mpc_plan.hpp"
+
+namespace prowl {
+
+struct MpcOptions {
+  MpcWeights weights;
+  double friction = 0.6;       ///< coefficient of the ground that plans may use [-]
+  int steps = 20;              ///< of the horizon
+  double first_step = 0.015;   ///< [s]
+  double least_horizon = 0.6;  ///< [s]; a stride if that is longer
+  double clearance = 0.12;     ///< height of a swing, as a share of the robot's standing height [-]
+  double delay = 0.0;          ///< from a measured state to the time at which its plan acts [s]
+  double barrier = 1e-5;       ///< mu, of a step of mean length [-]
+  int iterations = 10;         ///< most of the quadratic program of an update
+  HessianKind hessian = HessianKind::gauss_newton_with_cones;
+};
+
+/// What a robot is asked to do; velocities in the frame of its heading. Changes are smoothed.
+struct MpcCommand {
+  double forward = 0.0, left = 0.0;  ///< [m/s]
+  double turn = 0.0;                 ///< about the vertical [rad/s]
+  double height = 0.0;               ///< of the base, from its standing height [m]
+};
+
+/// Events since the start of a controller.
+struct MpcCounters {
+  long updates = 0;
+  long failed = 0;       ///< updates without a new plan: the last one went on
+  long bad_states = 0;   ///< of these: the measured state was not finite
+  long regularised = 0;  ///< updates whose Hessian was not convex
+  long restarted = 0;    ///< updates that forgot multipliers, as the one before had failed or was cut short
+  long damped = 0;       ///< torques after the end of the last plan: joints are damped
+};
+
+/// Whole-body model predictive control of a robot that steps in a pattern on flat ground. update() plans, torque()
+/// gives the torques of the latest plan with its gains. After construction nothing is allocated and nothing thrown.
+class MpcController {
+ public:
+  /// The robot stands still in its standing posture at (q, v) and time t [s]. Throws InputError if it cannot stand.
+  MpcController(const RobotModel& robot, const MpcOptions& options, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                double t);
+  MpcController(const MpcController&) = delete;
+  MpcController& operator=(const MpcController&) = delete;
+
+  const std::vector<std::vector<int>>& feet() const { return program_.feet(); }
+  void follow(const SteppingPattern& pattern);
+  /// Returns the command that is followed: within the speeds that the legs allow.
+  MpcCommand command(const MpcCommand& command);
+  /// Drops the latest plan, which came too late: the one before goes on.
+  void drop_latest();
+  /// Which feet touch the ground (one flag a foot), as measured at time t [s]. A foot that touches in the second half
+  /// of its swing has landed.
+  void feel_contacts(const std::vector<bool>& touches, double t);
+
+  /// Plans from the state (q, v) measured at time t [s]. False if there is no new plan: the last one goes on.
+  bool update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
+  /// The two parts of update(): everything that can be done before the state is measured, and the rest.
+  bool prepare(double t);
+  bool plan(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
+
+  /// Torques at time t for the state (q, v) at that time: those of the latest plan that has begun, with its gains,
+  /// within the limits. After its end, torques that damp the joints.
+  void torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau);
+
+  const MpcPlan& latest() const { return plan_; }
+  /// Command after smoothing, as the latest plan follows it.
+  const MpcCommand& followed() const { return smooth_; }
+  const ContactTimeline& timeline() const { return timeline_; }
+  const HorizonSolver& solver() const { return solver_; }
+  const MpcCounters& counters() const { return counters_; }
+  const Eigen::VectorXd& standing_posture() const { return program_.standing_posture(); }
+
+ private:
+  void lay_horizon(double start);
+  void set_bounds();
+  void shift();
+  void lead(double start);
+  void predict(Eigen::VectorXd& q, Eigen::VectorXd& v, double from, double to);
+  void restart();
+  void read_plan();
+  void find_ground(const Eigen::VectorXd& q, double t);
+  unsigned standing_at(double t) const;
+
+  RobotModel robot_;
+  MpcOptions options_;
+  HorizonProgram program_;
+  HorizonSolver solver_;
+  ContactTimeline timeline_;
+  HorizonGrid grid_;
+  MpcPlan plan_, previous_;
+  MpcCommand command_, smooth_;
+  bool is_settled_ = true;  ///< the latest update took its whole step
+  MpcCounters counters_;
+  std::vector<std::unique_ptr<ForwardDynamics>> dynamics_;  ///< by the bits of standing feet
+  RigidBodyTerms terms_;
+  double ground_ = 0.0;  ///< height of the ground [m]
+  double horizon_start_ = 0.0, led_until_;
+  Eigen::Vector2d place_;  ///< where the command has led, world [m]
+  double heading_;         ///< [rad]
+  std::vector<BarrierRows> old_rows_;
+  std::vector<HorizonProgram::Multipliers> old_multipliers_;
+  std::vector<double> old_lengths_;
+  Eigen::VectorXd q_, v_, a_, tau_, q_next_, v_next_;
+};
+
+}  // namespace prowl

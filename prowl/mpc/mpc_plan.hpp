@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// The motion of a horizon with feedback gains, step by step, and its control law:
+///
+///   tau = tau_k + K_k (x (-) x*(t)),  within the torque limits of the robot
+///
+/// x (-) x* is (base displacement, world [m]; rotation vector from R* to R [rad]; joints; velocities, as RobotModel).
+/// No function allocates but the constructor.
+class MpcPlan {
+ public:
+  struct Step {
+    double start = 0.0, length = 0.0;  ///< [s]
+    unsigned standing = 0;             ///< bit f: foot f stands
+    Eigen::VectorXd q, v;              ///< at the start
+    Eigen::VectorXd a, tau;            ///< constant over the step
+    Eigen::VectorXd force;             ///< 3 per contact of the robot, world frame [N]
+    Eigen::MatrixXd gain;              ///< K, nu x 2 nv
+  };
+
+  MpcPlan(const RobotModel& robot, int steps);
+
+  std::vector<Step>& steps() { return steps_; }
+  const std::vector<Step>& steps() const { return steps_; }
+  double start() const { return steps_.front().start; }
+  double end() const { return steps_.back().start + steps_.back().length; }
+  const Step& step_at(double t) const;  ///< the first or last one beyond the ends
+
+  /// x*(t); beyond the end the motion of the last step goes on for at most its length.
+  void state(double t, Eigen::VectorXd& q, Eigen::VectorXd& v) const;
+  /// tau for a state (q, v) at time t [s]. A state that is not finite gives tau_k alone.
+  void torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) const;
+
+ private:
+  const RobotModel& robot_;
+  std::vector<Step> steps_;
+  mutable Eigen::VectorXd q_, v_, deviation_;
+};
+
+/// Clamps torques to the limits of the robot at joint positions and velocities of the state (q, v).
+void clamp_torques(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau);
+
+}  // namespace prowl

@@ -1,0 +1,71 @@
+// Minimise 1/2 (x - c)^2 for one bounded variable by the rows' Newton steps.
+#include "prowl/mpc/barrier_rows.hpp"
+
+#include <gtest/gtest.h>
+
+namespace prowl {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kBarrier = 1e-8;
+
+/// x after some iterations from a start, feasible or not.
+double minimise(BarrierRows& rows, double goal, double x, int iterations) {
+  VectorXd values(1), weights, pull;
+  for (int i = 0; i < iterations; ++i) {
+    values(0) = x;
+    rows.linearise(values, kBarrier, weights, pull);
+    const double step = -(x - goal + pull(0)) / (1.0 + weights(0));
+    rows.step(VectorXd::Constant(1, step));
+    x += step;
+  }
+  return x;
+}
+
+TEST(BarrierRows, KeepsHardBounds) {
+  for (const double start : {-3.0, 0.2, 0.999, 5.0}) {
+    BarrierRows rows(1);
+    rows.set_bounds(0, 0.0, 1.0, BarrierRows::kHard);
+    EXPECT_NEAR(minimise(rows, 2.0, start, 30), 1.0, 1e-6) << start;
+    EXPECT_NEAR(minimise(rows, -2.0, start, 30), 0.0, 1e-6) << start;
+    EXPECT_NEAR(minimise(rows, 0.4, start, 30), 0.4, 1e-6) << start;
+    VectorXd multipliers;
+    rows.multipliers(multipliers);
+    EXPECT_NEAR(multipliers(0), 0.0, 1e-6);
+  }
+}
+
+TEST(BarrierRows, ThePriceOfASoftBoundIsExact) {
+  for (const double start : {-3.0, 0.5, 5.0}) {
+    BarrierRows rows(1);
+    rows.set_bounds(0, 0.0, 1.0, 10.0);
+    EXPECT_NEAR(minimise(rows, 2.0, start, 30), 1.0, 1e-6) << "a pull of 1 is less than its price";
+    rows.set_bounds(0, 0.0, 1.0, 0.3);
+    EXPECT_NEAR(minimise(rows, 2.0, start, 30), 1.7, 1e-5) << "a pull of 1 buys all but its price";
+    EXPECT_NEAR(minimise(rows, -2.0, start, 40), -1.7, 1e-5);
+  }
+}
+
+TEST(BarrierRows, ABoundThatAppearsStartsOnItsCentralPath) {
+  BarrierRows rows(1);
+  VectorXd weights, pull;
+  rows.linearise(VectorXd::Constant(1, -4.0), kBarrier, weights, pull);
+  EXPECT_EQ(weights(0), 0.0);
+  EXPECT_EQ(pull(0), 0.0);
+  rows.set_bounds(0, 0.0, BarrierRows::kHard, BarrierRows::kHard);
+  EXPECT_NEAR(minimise(rows, -1.0, -4.0, 30), 0.0, 1e-6);
+}
+
+TEST(BarrierRows, TellsHowFarItIsFromTheRows) {
+  BarrierRows rows(1);
+  rows.set_bounds(0, 0.0, BarrierRows::kHard, BarrierRows::kHard);
+  VectorXd weights, pull;
+  rows.linearise(VectorXd::Constant(1, 1.0), kBarrier, weights, pull);
+  EXPECT_LT(rows.step(VectorXd::Constant(1, -0.5)), 1e-12);
+  rows.linearise(VectorXd::Constant(1, 0.5), kBarrier, weights, pull);
+  EXPECT_GT(rows.step(VectorXd::Constant(1, -2.5)), 2.0) << "a step far beyond the bound";
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,115 @@
+#include "prowl/mpc/horizon_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include "prowl/model/configuration.hpp"
+#include "tests/support/random_vector.hpp"
+#include "tests/support/robots.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kSteps = 3;
+
+/// A horizon about the standing posture, with other feet on the ground in each step.
+void fill(HorizonProgram& program, std::mt19937& rng) {
+  const RobotModel& robot = program.robot();
+  const auto random = [&](int size, double most) { return test::random_vector(rng, size, most); };
+  const unsigned all = (1U << program.num_feet()) - 1U;
+  for (int k = 0; k < kSteps; ++k) {
+    const VectorXd q = integrate(program.standing_posture(), random(robot.nv(), 0.1));
+    program.set_stage(k, q, random(robot.nv(), 0.5), random(robot.nv(), 2.0), random(robot.nu(), 20.0));
+    program.variables(k) += random(static_cast<int>(program.variables(k).size()), 0.05);
+    HorizonStep& step = program.step(k);
+    step.length = 0.03;
+    step.contact_time = 0.02;
+    step.standing = k == 0 ? all : k == 1 ? 1U : 0U;
+    step.q_ref = integrate(program.standing_posture(), random(robot.nv(), 0.1));
+    step.v_ref = random(robot.nv(), 0.2);
+  }
+  for (int k = 0; k < kSteps; ++k) program.linearise(k);
+}
+
+double largest(const MatrixXd& matrix) { return matrix.size() > 0 ? matrix.cwiseAbs().maxCoeff() : 0.0; }
+
+class EachRobot : public testing::TestWithParam<RobotDescription (*)()> {};
+
+TEST_P(EachRobot, DerivativesAreThoseOfTheValues) {
+  HorizonProgram program(RobotModel{GetParam()()}, MpcWeights{}, 0.6, kSteps);
+  std::mt19937 rng(3);
+  fill(program, rng);
+  for (int k = 0; k < kSteps; ++k) {
+    const StageSize& size = program.size(k);
+    const int next = k + 1 < kSteps ? size.states : 0;
+    MatrixXd equalities(size.equalities, size.variables()), inequalities(size.inequalities, size.variables()),
+        links(next, size.variables());
+    MatrixXd d_inequalities = inequalities, d_links = links;
+    VectorXd gradient(size.variables());
+    const MatrixXd d_equalities = program.equality_slopes(k);
+    const VectorXd d_cost = program.cost_gradient(k);
+    for (int j = 0; j < size.variables(); ++j) {
+      VectorXd along_next(next), along_rows;
+      program.push_forward(k, VectorXd::Unit(size.variables(), j), along_next, along_rows);
+      d_inequalities.col(j) = along_rows;
+      d_links.col(j) = along_next;
+    }
+    for (int j = 0; j < size.variables(); ++j) {
+      constexpr double kStep = 1e-5;
+      double& variable = program.variables(k)(j);
+      const double at = variable;
+      variable = at + kStep;
+      program.linearise(k);
+      equalities.col(j) = program.equalities(k);
+      inequalities.col(j) = program.inequalities(k);
+      links.col(j) = program.link(k);
+      gradient(j) = program.cost(k);
+      variable = at - kStep;
+      program.linearise(k);
+      equalities.col(j) = (equalities.col(j) - program.equalities(k)) / (2.0 * kStep);
+      inequalities.col(j) = (inequalities.col(j) - program.inequalities(k)) / (2.0 * kStep);
+      links.col(j) = (links.col(j) - program.link(k)) / (2.0 * kStep);
+      gradient(j) = (gradient(j) - program.cost(k)) / (2.0 * kStep);
+      variable = at;
+    }
+    EXPECT_LT(largest(d_equalities - equalities), 1e-8) << k;
+    EXPECT_LT(largest(d_inequalities - inequalities), 1e-8 * (1.0 + largest(d_inequalities))) << k;
+    EXPECT_LT(largest(d_links - links), 1e-8) << k;
+    EXPECT_LT(largest(d_cost - gradient), 1e-8) << k;
+  }
+}
+
+TEST_P(EachRobot, StateAndInputsComeBack) {
+  HorizonProgram program(RobotModel{GetParam()()}, MpcWeights{}, 0.6, kSteps);
+  std::mt19937 rng(4);
+  const RobotModel& robot = program.robot();
+  const VectorXd q = integrate(program.standing_posture(), test::random_vector(rng, robot.nv(), 0.5));
+  const VectorXd v = test::random_vector(rng, robot.nv(), 1.0), a = test::random_vector(rng, robot.nv(), 5.0),
+                 tau = test::random_vector(rng, robot.nu(), 30.0);
+  program.set_stage(1, q, v, a, tau);
+  VectorXd q_back = q, v_back, a_back, tau_back, states;
+  program.get_state(1, q_back, v_back);
+  program.get_inputs(1, a_back, tau_back);
+  EXPECT_LT(difference(q, q_back).norm(), 1e-12);
+  EXPECT_LT((v - v_back).norm(), 1e-12);
+  EXPECT_LT((a - a_back).norm(), 1e-12);
+  EXPECT_LT((tau - tau_back).norm(), 1e-10);
+  program.to_states(1, q, v, states);
+  EXPECT_LT((states - program.variables(1).tail(states.size())).norm(), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(HorizonProgram, EachRobot,
+                         testing::Values(&test::hyq_description, &test::anymal_c_description,
+                                         &test::talos_description));
+
+TEST(HorizonProgram, FeetAreTheBodiesThatCarryContacts) {
+  EXPECT_EQ(contacts_of_feet(RobotModel(test::hyq_description())).size(), 4U);
+  const auto talos = contacts_of_feet(RobotModel(test::talos_description()));
+  ASSERT_EQ(talos.size(), 2U);
+  EXPECT_EQ(talos[0].size(), 4U);
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,155 @@
+#include "prowl/mpc/mpc_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/mpc/stepping_patterns.hpp"
+#include "tests/support/allocations.hpp"
+#include "tests/support/robots.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::VectorXd;
+
+struct Standing {
+  explicit Standing(const RobotDescription& description = test::hyq_description())
+      : robot(description),
+        q(HorizonProgram(robot, MpcWeights{}, 0.6, 2).standing_posture()),
+        v(VectorXd::Zero(robot.nv())),
+        mpc(robot, MpcOptions{}, q, v, 0.0) {}
+  void trot() { mpc.follow(stepping_pattern(robot, mpc.feet(), q.z(), "trot")); }
+
+  RobotModel robot;
+  VectorXd q, v;
+  MpcController mpc;
+};
+
+TEST(MpcController, StandingIsASolution) {
+  Standing standing;
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(standing.mpc.update(standing.q, standing.v, 0.0));
+  EXPECT_LT(standing.mpc.solver().violation(), 1e-9);
+  double lift = 0.0;
+  const MpcPlan::Step& first = standing.mpc.latest().steps().front();
+  for (Eigen::Index i = 2; i < first.force.size(); i += 3) lift += first.force(i);
+  EXPECT_NEAR(lift / standing.robot.weight(), 1.0, 0.01);
+}
+
+/// The robot follows its plan exactly, for a while.
+void follow_plan(Standing& standing, double from, double to) {
+  constexpr double kPeriod = 0.01;
+  for (double t = from; t < to - 1e-9; t += kPeriod) {
+    standing.mpc.latest().state(t, standing.q, standing.v);
+    ASSERT_TRUE(standing.mpc.update(standing.q, standing.v, t)) << t;
+  }
+}
+
+TEST(MpcController, PlansStepsThatItCanFollow) {
+  Standing standing;
+  standing.trot();
+  MpcCommand command;
+  command.forward = 0.3;
+  standing.mpc.command(command);
+  const double before = standing.q.x();
+  follow_plan(standing, 0.0, 4.0);
+  EXPECT_EQ(standing.mpc.counters().failed, 0);
+  EXPECT_NEAR(standing.mpc.followed().forward, 0.3, 1e-12);
+  EXPECT_GT(standing.q.x() - before, 0.6);
+  EXPECT_NEAR(standing.q.z(), standing.mpc.standing_posture().z(), 0.1) << "without ground the feet press lower";
+  // Hard limits hold in the plan, as well as quadratic programs are solved.
+  const double unsolved = HorizonSolver::kTolerance * standing.robot.weight() * standing.robot.size();  // [N m]
+  for (const MpcPlan::Step& step : standing.mpc.latest().steps())
+    EXPECT_TRUE((step.tau.cwiseAbs().array() <= standing.robot.torque_limit().array() + unsolved).all());
+}
+
+TEST(MpcController, GainsAreTheDerivativeOfThePlannedTorque) {
+  Standing standing;
+  standing.trot();
+  follow_plan(standing, 0.0, 1.0);
+  // With one iteration the quadratic program is Newton's step, linear in the measured state.
+  MpcOptions options;
+  options.iterations = 1;
+  MpcController once(standing.robot, options, standing.mpc.standing_posture(), VectorXd::Zero(standing.robot.nv()),
+                     0.0);
+  const VectorXd q = once.standing_posture(), v = VectorXd::Zero(standing.robot.nv());
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(once.update(q, v, 0.0));
+  const VectorXd tau = once.latest().steps()[0].tau;
+  const Eigen::MatrixXd gain = once.latest().steps()[0].gain;
+  VectorXd moved = v;
+  moved(1) = 1e-4;
+  ASSERT_TRUE(once.update(q, moved, 0.0));
+  EXPECT_LT((once.latest().steps()[0].tau - tau - gain.col(standing.robot.nv() + 1) * 1e-4).norm(),
+            1e-3 * gain.col(standing.robot.nv() + 1).norm() * 1e-4 + 1e-7);
+}
+
+TEST(MpcController, SurvivesStatesThatAreNone) {
+  Standing standing;
+  standing.trot();
+  follow_plan(standing, 0.0, 0.5);
+  VectorXd nan = standing.q, tau;
+  nan(8) = std::numeric_limits<double>::quiet_NaN();
+  const double planned_until = standing.mpc.latest().end();
+  for (double t = 0.5; t < planned_until + 0.5; t += 0.01) {
+    EXPECT_FALSE(standing.mpc.update(nan, standing.v, t));
+    standing.mpc.torque(t, nan, standing.v, tau);
+    EXPECT_TRUE(tau.allFinite()) << t;
+    standing.mpc.torque(t, standing.q, standing.v, tau);
+    EXPECT_TRUE(tau.allFinite()) << t;
+  }
+  EXPECT_GT(standing.mpc.counters().bad_states, 50);
+  EXPECT_GT(standing.mpc.counters().damped, 0) << "after its end a plan does not go on";
+  // And it recovers.
+  double t = planned_until + 0.5;
+  standing.q = standing.mpc.standing_posture();
+  standing.v.setZero();
+  int plans = 0;
+  for (int i = 0; i < 50; ++i, t += 0.01) plans += standing.mpc.update(standing.q, standing.v, t) ? 1 : 0;
+  EXPECT_GT(plans, 40);
+}
+
+TEST(MpcController, ClampsCommandsToWhatTheLegsAllow) {
+  Standing standing;
+  MpcCommand command;
+  command.forward = 100.0;
+  command.turn = -100.0;
+  command.left = std::numeric_limits<double>::quiet_NaN();
+  const MpcCommand followed = standing.mpc.command(command);
+  EXPECT_GT(followed.forward, 0.5);
+  EXPECT_LT(followed.forward, 3.0);
+  EXPECT_LT(followed.turn, -0.5);
+  EXPECT_GT(followed.turn, -3.0);
+  EXPECT_EQ(followed.left, 0.0);
+}
+
+TEST(MpcController, RefusesAGaitWithoutTheFeetForIt) {
+  const RobotModel talos(test::talos_description());
+  EXPECT_THROW(stepping_pattern(talos, contacts_of_feet(talos), 1.0, "trot"), InputError);
+  EXPECT_THROW(stepping_pattern(talos, contacts_of_feet(talos), 1.0, "jig"), InputError);
+  EXPECT_EQ(stepping_pattern(talos, contacts_of_feet(talos), 1.0, "walk").groups.size(), 2U);
+}
+
+#ifdef PROWL_COUNTS_ALLOCATIONS
+TEST(MpcController, AllocatesNothingOnceItRuns) {
+  Standing standing;
+  standing.trot();
+  follow_plan(standing, 0.0, 2.0);  // all sets of contacts of the gait have been
+  VectorXd tau(standing.robot.nu());
+  const std::vector<bool> touches(4, false);
+  long allocated = 0;
+  for (double t = 2.0; t < 3.0; t += 0.01) {
+    standing.mpc.latest().state(t, standing.q, standing.v);
+    const long before = test::allocations;
+    standing.mpc.feel_contacts(touches, t);
+    standing.mpc.update(standing.q, standing.v, t);
+    standing.mpc.torque(t, standing.q, standing.v, tau);
+    allocated += test::allocations - before;
+  }
+  EXPECT_EQ(allocated, 0);
+}
+#endif
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,6 @@
+prowl_test(mpc/contact_timeline prowl::mpc)
+prowl_test(mpc/horizon_grid prowl::mpc)
+prowl_test(mpc/barrier_rows prowl::mpc)
+prowl_test(mpc/horizon_program prowl::mpc)
+prowl_test(mpc/mpc_plan prowl::mpc)
+prowl_test(mpc/mpc_controller prowl::mpc)
