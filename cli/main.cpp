@@ -135,6 +135,7 @@ int run(int argc, char** argv) {
   add_robot_command(app, status);
   add_simulate_command(app, status);
   add_sweep_command(app, status);
+  add_mpc_command(app, status);
   add_compare_command(app, status);
   add_figures_command(app, status);
   add_report_command(app, status);

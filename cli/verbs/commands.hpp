@@ -15,6 +15,7 @@ void add_diagnose_command(CLI::App& app, int& status);
 void add_robot_command(CLI::App& app, int& status);
 void add_simulate_command(CLI::App& app, int& status);
 void add_sweep_command(CLI::App& app, int& status);
+void add_mpc_command(CLI::App& app, int& status);
 void add_compare_command(CLI::App& app, int& status);
 void add_figures_command(CLI::App& app, int& status);
 void add_report_command(CLI::App& app, int& status);

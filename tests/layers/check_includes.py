@@ -113,6 +113,16 @@ ALLOWED = {
         "prowl/feasibility",
         "prowl/certificate",
     ],
+    # Online: a controller, and its robot in MuJoCo.
+    "prowl/mpc": [
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/nlp",
+        "prowl/transcription",
+        "prowl/solvers",
+    ],
+    "prowl/online": ["prowl/model", "prowl/estimation", "prowl/simulation", "prowl/mpc"],
     # Files in, plans out.
     "prowl/task_file": [
         "prowl/text",
@@ -186,6 +196,7 @@ ALLOWED = {
         "prowl/certificate",
     ],
     "screen": [
+        "prowl/online",
         "prowl/files",
         "prowl/model",
         "prowl/motion",
@@ -227,6 +238,8 @@ ALLOWED = {
         "prowl/tracker",
         "prowl/tracking",
         "prowl/mjcf",
+        "prowl/mpc",
+        "prowl/online",
         "prowl/simulation",
         "prowl/task_file",
         "prowl/session",

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "cli/options/shared_options.hpp"
+#include "cli/process/exit_status.hpp"
+#include "cli/process/program_files.hpp"
+#include "cli/screen/json_result.hpp"
+#include "cli/screen/output.hpp"
+#include "cli/screen/progress_bar.hpp"
+#include "cli/screen/wrap.hpp"
+#include "cli/verbs/commands.hpp"
+#include "prowl/error.hpp"
+#include "prowl/mpc/stepping_patterns.hpp"
+#include "prowl/online/online_run.hpp"
+#include "prowl/session/environment.hpp"
+#include "prowl/task_file/robot_file.hpp"
+#include "screen/online_summary.hpp"
+
+namespace prowl::cli {
+namespace {
+
+constexpr const char* kWorld = "World";                                   ///< group of --help
+constexpr double kCommandTime = 1.0;                                      ///< at which --command begins [s]
+constexpr double kKickEvery = 2.0, kKickDuration = 0.1, kQuietEnd = 1.9;  ///< of --kicks [s]
+
+struct MpcArguments {
+  std::string robot;
+  std::vector<std::string> package_dirs;
+  OnlineOptions options;
+  std::vector<double> command{0.0, 0.0, 0.0};
+  std::vector<double> push;  ///< time, impulse in x, y, z
+  double kicks = 0.0;        ///< [m/s]
+  double slope = 0.0;        ///< [degrees]
+  double budget_ms = 1e3 * OnlineOptions{}.budget, period_ms = 1e3 * OnlineOptions{}.period;
+  double delay_ms = 1e3 * SimulationOptions{}.delay;
+  std::optional<double> friction;
+  std::string late = "act";
+  bool json = false;
+};
+
+/// A horizontal impulse of mass times `speed` in a random direction, again and again.
+void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options) {
+  std::mt19937_64 random(options.simulation.seed);
+  for (double t = kKickEvery; t < options.duration - kQuietEnd; t += kKickEvery) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(random()) * 0x1p-64;
+    options.simulation.pushes.push_back(
+        {{speed * robot.mass() * std::cos(angle), speed * robot.mass() * std::sin(angle), 0.0}, t, kKickDuration});
+  }
+}
+
+int run_mpc(const MpcArguments& arguments) {
+  check_mujoco();
+  const RobotModel robot =
+      load_robot(read_text_file(find_robot(arguments.robot)), package_search(arguments.package_dirs));
+  OnlineOptions options = arguments.options;
+  options.budget = 1e-3 * arguments.budget_ms;
+  options.period = 1e-3 * arguments.period_ms;
+  options.simulation.delay = 1e-3 * arguments.delay_ms;
+  options.simulation.physics.friction = arguments.friction;
+  options.simulation.ground.tilt.y() = -arguments.slope * std::numbers::pi / 180.0;  // ahead the ground rises
+  options.late = arguments.late == "drop" ? LatePlans::drop : LatePlans::act;
+  options.commands.push_back(
+      {kCommandTime, {arguments.command[0], arguments.command[1], arguments.command[2], 0.0}, {}});
+  if (arguments.push.size() % 4 != 0)
+    throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]",
+                                 arguments.push.size()));
+  for (std::size_t i = 0; i < arguments.push.size(); i += 4) {
+    const double* const push = &arguments.push[i];
+    options.simulation.pushes.push_back({{push[1], push[2], push[3]}, push[0], kKickDuration});
+  }
+  if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
+  MotionProgress progress;
+  const OnlineResult result = run_online(robot, options, std::ref(progress));
+  const int status = result.success() ? kPassed : kSimulationFailed;
+  if (arguments.json) {
+    print_json({.verb = "mpc", .exit_status = status, .result = online_json(robot, options, result)});
+  } else {
+    print_result(wrap(online_summary(robot, options, result)));
+  }
+  return status;
+}
+
+void add_world_options(CLI::App& verb, MpcArguments& arguments) {
+  SimulationOptions& simulation = arguments.options.simulation;
+  const std::vector<CLI::Option*> all = {
+      verb.add_option("--push", arguments.push, "Push the base at this time with this impulse for 0.1 s; repeatable")
+          ->type_name("T X Y Z"),
+      verb.add_option("--kicks", arguments.kicks,
+                      "Push it every 2 s in a random horizontal direction with an impulse of its mass times this speed")
+          ->type_name("MPS")
+          ->check(number_in(NumberRange::nonnegative())),
+      verb.add_option("--friction", arguments.friction,
+                      fmt::format("Friction of the ground; default {:g}, which the controller counts on",
+                                  arguments.options.mpc.friction))
+          ->type_name("X")
+          ->check(number_in(NumberRange::positive())),
+      verb.add_option("--mass", simulation.physics.mass_scale,
+                      "Factor on the mass of the robot, unknown to the controller; default 1")
+          ->type_name("X")
+          ->check(number_in(NumberRange::positive())),
+      verb.add_option("--slope", arguments.slope, "The ground rises ahead by this angle, unknown to the controller")
+          ->type_name("DEGREES")
+          ->check(number_in({.lower = -30.0, .upper = 30.0})),
+      verb.add_option("--noise", simulation.noise_scale, "Factor on the noise of the sensors; default 1")
+          ->type_name("X")
+          ->check(number_in(NumberRange::nonnegative())),
+      verb.add_option("--delay", arguments.delay_ms,
+                      fmt::format("From sensors to torques; default {:g}", arguments.delay_ms))
+          ->type_name("MS")
+          ->check(number_in({.lower = 0.0, .upper = 50.0})),
+      verb.add_flag("--perfect-state", simulation.perfect_state, "Give the controller the true state"),
+      verb.add_option("--seed", simulation.seed, fmt::format("Seed of noise and kicks; default {}", simulation.seed))
+          ->check(whole_number())
+          ->type_name("N")};
+  for (CLI::Option* const option : all) option->group(kWorld);
+}
+
+}  // namespace
+
+void add_mpc_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<MpcArguments>();
+  CLI::App* const verb =
+      app.add_subcommand("mpc", "Control a robot online in MuJoCo: a new plan every 10 ms (docs/mpc.md)");
+  verb->add_option("robot", arguments->robot, "Robot file, or a shipped robot such as hyq")
+      ->required()
+      ->type_name("ROBOT");
+  verb->add_option("--gait", arguments->options.gait, "How it steps; default trot")
+      ->check(one_of(stepping_gaits()))
+      ->type_name("NAME");
+  verb->add_option("--command", arguments->command,
+                   "Velocity ahead and to the left [m/s], and turn rate [rad/s], from 1 s on; default 0 0 0")
+      ->expected(3)
+      ->type_name("VX VY YAW");
+  verb->add_option("--duration", arguments->options.duration,
+                   fmt::format("Simulated time; default {:g}", arguments->options.duration))
+      ->type_name("S")
+      ->check(number_in({.lower = 0.1, .upper = 1e5}));
+  verb->add_option("--period", arguments->period_ms,
+                   fmt::format("Time between two plans; default {:g}", arguments->period_ms))
+      ->type_name("MS")
+      ->check(number_in({.lower = 1.0, .upper = 200.0}));
+  verb->add_option("--budget", arguments->budget_ms,
+                   fmt::format("Time from a measured state until its plan acts; default {:g}", arguments->budget_ms))
+      ->type_name("MS")
+      ->check(number_in({.lower = 0.0, .upper = 200.0}));
+  verb->add_option("--late", arguments->late,
+                   "Plans that take longer: act (default) at the end of the budget all the same, which every machine "
+                   "repeats; or drop")
+      ->check(one_of({"act", "drop"}))
+      ->type_name("NAME");
+  add_world_options(*verb, *arguments);
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
+  set_footer(
+      *verb, {"prowl mpc hyq --duration 3 --command 0.3 0 0", "prowl mpc go2 --duration 4 --kicks 0.3 --seed 3"},
+      "0 success; 8 the robot fell, touched the ground with other parts than its feet, or did not follow; others as "
+      "prowl plan.");
+  verb->callback([arguments, &status] { status = run_mpc(*arguments); });
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,1 @@
+prowl_test(online/online_run prowl::online)
