@@ -102,17 +102,36 @@ void BarrierRows::linearise(const VectorXd& values, double mu, VectorXd& weights
   }
 }
 
-double BarrierRows::step(const VectorXd& change) {
+double BarrierRows::longest(const VectorXd& change) const {
+  double share = 1.0;
+  const auto keep = [&share](double value, double step) {
+    if (step < 0.0) share = std::min(share, -(1.0 - kKept) * value / step);
+  };
+  for (const Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (!is_bound(*side, row)) continue;
+      const double d = side->d(row), z = side->z(row), t = side->t(row);
+      const double dz = (side->target(row) - side->sign * change(row)) / side->compliance(row);
+      keep(d, mu_ / z - d - d / z * dz);
+      if (!is_soft(row)) continue;
+      const double y = penalty_(row) - z;
+      keep(t, mu_ / y - t + t / y * dz);
+    }
+  }
+  return share;
+}
+
+double BarrierRows::step(const VectorXd& change, double share) {
   double farthest = 0.0;
   for (Side* side : {&lower_, &upper_}) {
     for (Index row = 0; row < size(); ++row) {
       if (!is_bound(*side, row)) continue;
       double &d = side->d(row), &z = side->z(row), &t = side->t(row);
       const double dz = (side->target(row) - side->sign * change(row)) / side->compliance(row);
-      const double dd = mu_ / z - d - d / z * dz;
+      const double dd = share * (mu_ / z - d - d / z * dz);
       if (is_soft(row)) {
         const double y = penalty_(row) - z;
-        const double dt = mu_ / y - t + t / y * dz;
+        const double dt = share * (mu_ / y - t + t / y * dz);
         t = std::max(t + dt, kKept * t);
         z = std::clamp(z + dz, kKept * z, penalty_(row) - kKept * y);
       } else {
@@ -121,7 +140,7 @@ double BarrierRows::step(const VectorXd& change) {
       d = std::max({d + dd, kKept * d, kLeastDistance});
       const double central = mu_ / d;
       z = std::clamp(z, central / kSpread, std::max(central * kSpread, central / kSpread));
-      const double now = side->gap(row) + side->sign * change(row);
+      const double now = side->gap(row) + side->sign * share * change(row);
       farthest = std::max(farthest, std::abs(now - (d - (is_soft(row) ? t : 0.0))));
     }
   }

@@ -11,8 +11,8 @@ namespace prowl {
 ///
 ///   sign (r - bound) = d - t,   z d = mu,   (penalty - z) t = mu
 ///
-/// Distances and multipliers need not fit each other: a measured state comes as it is. A step in r is taken as a whole,
-/// and each bound keeps its own share of its step, so that one bound does not stop the others.
+/// Distances and multipliers need not fit each other: a measured state comes as it is. A step that a bound would stop
+/// may be taken as a whole: then that bound's distance does not fit its row any more, until later steps.
 class BarrierRows {
  public:
   static constexpr double kHard = std::numeric_limits<double>::infinity();
@@ -29,8 +29,11 @@ class BarrierRows {
 
   /// Newton's equations: weight of each row in the Hessian, and its pull: the derivative of the Lagrangian in r.
   void linearise(const Eigen::VectorXd& values, double mu, Eigen::VectorXd& weights, Eigen::VectorXd& pull);
-  /// After linearise(): a step of the rows. Returns how far distances then are from the rows, at most [units of rows].
-  double step(const Eigen::VectorXd& change);
+  /// After linearise(): this share of a step of the rows. Returns how far distances then are from the rows, at most
+  /// [units of rows].
+  double step(const Eigen::VectorXd& change, double share = 1.0);
+  /// After linearise(): the part of a step, at most 1, that keeps all distances and elastic variables positive.
+  double longest(const Eigen::VectorXd& change) const;
   /// Multipliers of the rows in the Lagrangian: negative at lower bounds.
   void multipliers(Eigen::VectorXd& result) const;
   /// Largest elastic variable [units of the rows] beyond what the barrier leaves.

@@ -14,6 +14,9 @@ using Eigen::VectorXd;
 constexpr double kFirstRegularisation = 1e-4, kGrowth = 8.0, kDecrease = 0.25, kMost = 1e4;
 /// Largest change of a state by one step, in units of the stages: beyond it the linearisation means nothing.
 constexpr double kLargestStep = 10.0;
+/// Steps that can act before the next plan, or the one after, replaces them.
+constexpr int kNearSteps = 8;
+constexpr double kRestartExcess = 100.0, kExcessDecrease = 0.2;
 
 }  // namespace
 
@@ -32,6 +35,15 @@ HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterat
   }
   states_.setZero(size.states);
   gain_.setZero(size.inputs, size.states);
+}
+
+void HorizonSolver::restart() {
+  excess_ = kRestartExcess;
+  for (int k = 0; k < program_.num_stages(); ++k) {
+    rows_[k].reset();
+    HorizonProgram::Multipliers& on = program_.multipliers(k);
+    for (VectorXd* multipliers : {&on.equalities, &on.inequalities, &on.next}) multipliers->setZero();
+  }
 }
 
 bool HorizonSolver::prepare() {
@@ -62,7 +74,7 @@ bool HorizonSolver::prepare() {
 /// At the variables plus the step so far.
 void HorizonSolver::set_gradient() {
   for (int k = 0; k < program_.num_stages(); ++k) {
-    const double barrier = barrier_ * program_.step(k).length / mean_length_;
+    const double barrier = excess_ * barrier_ * program_.step(k).length / mean_length_;
     rows_[k].linearise(inequalities_[k], barrier, weights_[k], pull_[k]);
     gradient_[k] = program_.cost_gradient(k);
     gradient_[k].noalias() += program_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step_[k];
@@ -82,16 +94,23 @@ bool HorizonSolver::factorise() {
   return true;
 }
 
-bool HorizonSolver::solve() {
+/// The first step of a quadratic program is taken as a whole, as it removes the violations of dynamics and start. Those
+/// after it keep all distances positive.
+bool HorizonSolver::solve(bool whole) {
   kkt_.set_start(states_);
   kkt_.solve(gradient_, equalities_, links_, std::numeric_limits<double>::infinity());
   states_.setZero();
-  residual_ = 0.0;
+  residual_ = near_residual_ = 0.0;
+  double share = 1.0;
   for (int k = 0; k < program_.num_stages(); ++k) {
     if (!kkt_.steps()[k].allFinite() || !kkt_.on_equalities()[k].allFinite()) return false;
-    residual_ = std::max(residual_, rows_[k].step(kkt_.along_inequalities()[k]));
-    step_[k] += kkt_.steps()[k];
-    inequalities_[k] += kkt_.along_inequalities()[k];
+    if (!whole) share = std::min(share, rows_[k].longest(kkt_.along_inequalities()[k]));
+  }
+  for (int k = 0; k < program_.num_stages(); ++k) {
+    residual_ = std::max(residual_, rows_[k].step(kkt_.along_inequalities()[k], share));
+    if (k < kNearSteps) near_residual_ = residual_;
+    step_[k] += share * kkt_.steps()[k];
+    inequalities_[k] += share * kkt_.along_inequalities()[k];
     equalities_[k].setZero();
     links_[k].setZero();
   }
@@ -103,12 +122,14 @@ bool HorizonSolver::step(const VectorXd& q, const VectorXd& v) {
   program_.to_states(0, q, v, states_);
   states_ -= program_.variables(0).tail(states_.size());
   start_ = states_;
-  if (!solve()) return false;
-  for (done_ = 1; done_ < iterations_ && residual_ > kTolerance; ++done_) {
+  if (!solve(true)) return false;
+  for (done_ = 1; done_ < iterations_ && (residual_ > kTolerance || excess_ > 1.0); ++done_) {
+    excess_ = std::max(1.0, kExcessDecrease * excess_);
     set_gradient();
-    if (!factorise() || !solve()) return false;
+    if (!factorise() || !solve(false)) return false;
   }
-  if (residual_ > kUnsolved) return false;
+  excess_ = 1.0;
+  if (near_residual_ > kUnsolved) return false;
   double largest = 0.0;
   for (int k = 0; k < stages; ++k)
     largest = std::max(largest, step_[k].tail(program_.size(k).states).lpNorm<Eigen::Infinity>());

@@ -18,6 +18,10 @@ class HorizonSolver {
   /// method thinks, within kTolerance.
   HorizonSolver(HorizonProgram& program, double barrier, int iterations);
 
+  /// Forgets distances and multipliers of all rows. The next quadratic program begins with a larger barrier parameter,
+  /// as a point far from a small one's path hardly gets there.
+  void restart();
+
   BarrierRows& rows(int k) { return rows_[static_cast<std::size_t>(k)]; }
 
   /// Linearises at the variables of the program and factorises. False if that is not possible: do not call step().
@@ -31,16 +35,16 @@ class HorizonSolver {
   double regularisation() const { return regularisation_; }  ///< of the latest factorisation
   /// Of the latest prepare(): largest violation of dynamics and links, in units of the stages.
   double violation() const { return violation_; }
-  double step_share() const { return share_; }   ///< of Newton's step that was taken
-  int iterations() const { return done_; }       ///< of the latest quadratic program
-  double residual() const { return residual_; }  ///< largest of its rows, in their units
+  double step_share() const { return share_; }        ///< of Newton's step that was taken
+  int iterations() const { return done_; }            ///< of the latest quadratic program
+  double residual() const { return near_residual_; }  ///< largest of the rows of its first steps, which act
 
   static constexpr double kTolerance = 0.01, kUnsolved = 0.1;  ///< in units of the rows
 
  private:
   void set_gradient();
   bool factorise();
-  bool solve();
+  bool solve(bool whole);
 
   HorizonProgram& program_;
   StageKkt kkt_;
@@ -53,7 +57,8 @@ class HorizonSolver {
   Eigen::VectorXd nothing_, states_, start_;
   Eigen::MatrixXd gain_;
   int done_ = 0;
-  double residual_ = 0.0;
+  double residual_ = 0.0, near_residual_ = 0.0;
+  double excess_ = 1.0;  ///< of the barrier parameter
   double regularisation_ = 0.0, violation_ = 0.0, share_ = 1.0;
 };
 

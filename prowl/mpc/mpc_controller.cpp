@@ -22,8 +22,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kContactTime = 0.05;
 /// A foot is at most this fast when it lands [m/s], and before that as fast as it can brake with this [m/s^2].
 constexpr double kLandingSpeed = 0.1, kLandingBrake = 30.0;
-constexpr int kSoftSteps = 2;          ///< whose friction may give way
-constexpr double kSettledShare = 0.5;  ///< of a step; with less, the next update starts anew
+constexpr int kSoftSteps = 2;            ///< whose friction gives way as other limits do
+constexpr double kFrictionPrice = 10.0;  ///< of friction in later steps, times the price of others: it hardly gives way
+constexpr double kSettledShare = 0.5;    ///< of a step; with less, the next update starts anew
 /// A foot lands so far below the ground [m], within kOnGround, and searches it this fast if it does not find it [m/s].
 constexpr double kPress = 4e-3, kOnGround = 4e-3, kSearch = 0.3;
 /// The place to which the command has led stays this near to the robot: a share of its size, and [rad].
@@ -233,7 +234,7 @@ void MpcController::set_bounds() {
       for (const int contact : program_.feet()[static_cast<std::size_t>(f)]) {
         for (int i = 0; i < FrictionLimit::kMostRows; ++i)
           rows.set_bounds(program_.friction_row(contact) + i, stands ? 0.0 : -kInfinity, kInfinity,
-                          k < kSoftSteps ? soft : BarrierRows::kHard);
+                          (k < kSoftSteps ? 1.0 : kFrictionPrice) * soft);
         rows.set_bounds(program_.height_row(contact), least, most, soft);
         for (int axis = 0; axis < 3; ++axis)
           rows.set_bounds(program_.contact_velocity_row(contact) + axis, -fastest, fastest, soft);
@@ -303,11 +304,7 @@ void MpcController::predict(VectorXd& q, VectorXd& v, double from, double to) {
 /// What a failed update knows of the limits may be far off.
 void MpcController::restart() {
   ++counters_.restarted;
-  for (int k = 0; k < options_.steps; ++k) {
-    solver_.rows(k).reset();
-    HorizonProgram::Multipliers& on = program_.multipliers(k);
-    for (VectorXd* multipliers : {&on.equalities, &on.inequalities, &on.next}) multipliers->setZero();
-  }
+  solver_.restart();
 }
 
 void MpcController::read_plan() {
