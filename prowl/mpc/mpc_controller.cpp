@@ -24,6 +24,7 @@ constexpr double kContactTime = 0.05;
 constexpr double kLandingSpeed = 0.1, kLandingBrake = 30.0;
 constexpr int kSoftSteps = 2;            ///< whose friction gives way as other limits do
 constexpr double kFrictionPrice = 10.0;  ///< of friction in later steps, times the price of others: it hardly gives way
+constexpr int kMostFailures = 5;         ///< in a row, before an update starts anew
 constexpr double kSettledShare = 0.5;    ///< of a step; with less, the next update starts anew
 /// A foot lands so far below the ground [m], within kOnGround, and searches it this fast if it does not find it [m/s].
 constexpr double kPress = 4e-3, kOnGround = 4e-3, kSearch = 0.3;
@@ -269,11 +270,13 @@ bool MpcController::plan(const VectorXd& q, const VectorXd& v, double t) {
   if (off.norm() > leash) place_ = q_.head<2>() + off * (leash / off.norm());
   const double turned = wrapped(heading_ - yaw(q_));
   heading_ = yaw(q_) + std::clamp(turned, -kTurnLeash, kTurnLeash);
-  is_settled_ = solver_.step(q_, v_);
-  if (!is_settled_) {
+  if (!solver_.step(q_, v_)) {
     ++counters_.failed;
+    // What the rows know by now helps the next quadratic program, unless it leads nowhere.
+    is_settled_ = ++failed_in_a_row_ % kMostFailures != 0;
     return false;
   }
+  failed_in_a_row_ = 0;
   is_settled_ = solver_.step_share() > kSettledShare;
   read_plan();
   return true;

@@ -100,6 +100,7 @@ class MpcController {
   HorizonGrid grid_;
   MpcPlan plan_, previous_;
   MpcCommand command_, smooth_;
+  int failed_in_a_row_ = 0;
   bool is_settled_ = true;  ///< the latest update took its whole step
   MpcCounters counters_;
   std::vector<std::unique_ptr<ForwardDynamics>> dynamics_;  ///< by the bits of standing feet
