@@ -29,15 +29,6 @@ struct TickTimes {
   }
 };
 
-const char* end_name(OnlineResult::End end) {
-  switch (end) {
-    case OnlineResult::End::finished: return "finished";
-    case OnlineResult::End::fell: return "fell";
-    case OnlineResult::End::diverged: return "diverged";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string online_summary(const RobotModel& robot, const OnlineOptions& options, const OnlineResult& result) {
@@ -60,7 +51,7 @@ std::string online_json(const RobotModel& robot, const OnlineOptions& options, c
                      {"gait", options.gait},
                      {"seed", options.simulation.seed},
                      {"success", result.success()},
-                     {"end", end_name(result.end)},
+                     {"end", to_string(result.end)},
                      {"end_time_s", result.end_time},
                      {"failures", result.failures},
                      {"velocity_error_mps", result.velocity_error},

@@ -12,6 +12,7 @@
 
 #include "cli/process/program_files.hpp"
 #include "cli/screen/output.hpp"
+#include "prowl/error.hpp"
 #include "prowl/simulation/perturbations.hpp"
 #include "prowl/task_file/toml/file_keys.hpp"
 #include "prowl/text/nearest_name.hpp"
@@ -24,6 +25,19 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
     return fmt::format("{} not in {{{}}}{}", value, fmt::join(names, ","), did_you_mean(value, names));
   });
   return known;
+}
+
+std::vector<Push> read_pushes(const std::vector<double>& numbers, double duration) {
+  if (numbers.size() % 4 != 0) {
+    throw InputError(
+        fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]", numbers.size()));
+  }
+  std::vector<Push> pushes;
+  for (std::size_t i = 0; i < numbers.size(); i += 4) {
+    const double* const push = &numbers[i];
+    pushes.push_back({{push[1], push[2], push[3]}, push[0], duration});
+  }
+  return pushes;
 }
 
 CLI::Option* add_task(CLI::App& verb, std::string& task) {

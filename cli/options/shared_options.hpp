@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "prowl/simulation/simulation_options.hpp"
 #include "prowl/task_file/task_file.hpp"
 #include "prowl/task_file/toml/number_range.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
@@ -28,7 +29,9 @@ void add_plan_directory(CLI::App& verb, std::string& directory);           ///< 
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
 void add_allow_libraries(CLI::App& verb, bool& allows);                    ///< --allow-libraries, for OwnTerms
 CLI::Option* add_only(CLI::App& verb, std::vector<std::string>& kinds);    ///< --only, for only()
-void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet
+/// Pushes of --push, four numbers each: time [s], impulse in x, y, z [N s]. Throws InputError for another count.
+std::vector<Push> read_pushes(const std::vector<double>& numbers, double duration);
+void add_json(CLI::App& verb, bool& json);                         ///< --json, for print_json(), and --quiet
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);  ///< --max-time, --max-iterations, --tolerance
 void add_hessian(CLI::App& verb, HessianKind& hessian);            ///< --hessian
 

@@ -13,7 +13,6 @@
 #include "cli/screen/progress_bar.hpp"
 #include "cli/screen/wrap.hpp"
 #include "cli/verbs/commands.hpp"
-#include "prowl/error.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "prowl/online/online_run.hpp"
 #include "prowl/session/environment.hpp"
@@ -65,13 +64,7 @@ int run_mpc(const MpcArguments& arguments) {
   options.late = arguments.late == "drop" ? LatePlans::drop : LatePlans::act;
   options.commands.push_back(
       {kCommandTime, {arguments.command[0], arguments.command[1], arguments.command[2], 0.0}, {}});
-  if (arguments.push.size() % 4 != 0)
-    throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]",
-                                 arguments.push.size()));
-  for (std::size_t i = 0; i < arguments.push.size(); i += 4) {
-    const double* const push = &arguments.push[i];
-    options.simulation.pushes.push_back({{push[1], push[2], push[3]}, push[0], kKickDuration});
-  }
+  options.simulation.pushes = read_pushes(arguments.push, kKickDuration);
   if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
   MotionProgress progress;
   const OnlineResult result = run_online(robot, options, std::ref(progress));

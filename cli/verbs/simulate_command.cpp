@@ -80,14 +80,7 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
   options.delay = 1e-3 * arguments.delay_ms;
   options.physics.collisions = collision_shapes(plan.task.problem.robot, package_search(arguments.package_dirs));
   options.physics.friction = arguments.friction ? arguments.friction : plan.task.simulated_friction;
-  if (arguments.push.size() % 4 != 0) {
-    throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]",
-                                 arguments.push.size()));
-  }
-  for (std::size_t i = 0; i < arguments.push.size(); i += 4) {
-    const double* const push = &arguments.push[i];
-    options.pushes.push_back({{push[1], push[2], push[3]}, push[0], arguments.push_duration});
-  }
+  options.pushes = read_pushes(arguments.push, arguments.push_duration);
   if (arguments.sweep_case)
     options = perturbed(plan.task.problem, tracker, options, only(arguments.only), *arguments.sweep_case);
   MotionProgress progress;

@@ -93,13 +93,20 @@ void BarrierRows::linearise(const VectorXd& values, double mu, VectorXd& weights
         compliance = d / z + t / y;
       }
       side->gap(row) = gap(*side, row, values(row));
-      target -= side->gap(row) - (d - (is_soft(row) ? t : 0.0));
+      target -= side->gap(row) - (d - elastic(*side, row));
       side->target(row) = target;
       side->compliance(row) = compliance;
       weights(row) += 1.0 / compliance;
       pull(row) -= side->sign * (z + target / compliance);
     }
   }
+}
+
+BarrierRows::Move BarrierRows::move(const Side& side, Index row, double change) const {
+  const double d = side.d(row), z = side.z(row), t = side.t(row);
+  const double dz = (side.target(row) - side.sign * change) / side.compliance(row);
+  const double y = penalty_(row) - z;
+  return {mu_ / z - d - d / z * dz, dz, is_soft(row) ? mu_ / y - t + t / y * dz : 0.0};
 }
 
 double BarrierRows::longest(const VectorXd& change) const {
@@ -110,12 +117,9 @@ double BarrierRows::longest(const VectorXd& change) const {
   for (const Side* side : {&lower_, &upper_}) {
     for (Index row = 0; row < size(); ++row) {
       if (!is_bound(*side, row)) continue;
-      const double d = side->d(row), z = side->z(row), t = side->t(row);
-      const double dz = (side->target(row) - side->sign * change(row)) / side->compliance(row);
-      keep(d, mu_ / z - d - d / z * dz);
-      if (!is_soft(row)) continue;
-      const double y = penalty_(row) - z;
-      keep(t, mu_ / y - t + t / y * dz);
+      const Move step = move(*side, row, change(row));
+      keep(side->d(row), step.d);
+      keep(side->t(row), step.t);
     }
   }
   return share;
@@ -127,21 +131,19 @@ double BarrierRows::step(const VectorXd& change, double share) {
     for (Index row = 0; row < size(); ++row) {
       if (!is_bound(*side, row)) continue;
       double &d = side->d(row), &z = side->z(row), &t = side->t(row);
-      const double dz = (side->target(row) - side->sign * change(row)) / side->compliance(row);
-      const double dd = share * (mu_ / z - d - d / z * dz);
+      const Move step = move(*side, row, change(row));
       if (is_soft(row)) {
         const double y = penalty_(row) - z;
-        const double dt = share * (mu_ / y - t + t / y * dz);
-        t = std::max(t + dt, kKept * t);
-        z = std::clamp(z + dz, kKept * z, penalty_(row) - kKept * y);
+        t = std::max(t + share * step.t, kKept * t);
+        z = std::clamp(z + step.z, kKept * z, penalty_(row) - kKept * y);
       } else {
-        z = std::max(z + dz, kKept * z);
+        z = std::max(z + step.z, kKept * z);
       }
-      d = std::max({d + dd, kKept * d, kLeastDistance});
+      d = std::max({d + share * step.d, kKept * d, kLeastDistance});
       const double central = mu_ / d;
-      z = std::clamp(z, central / kSpread, std::max(central * kSpread, central / kSpread));
+      z = std::clamp(z, central / kSpread, central * kSpread);
       const double now = side->gap(row) + side->sign * share * change(row);
-      farthest = std::max(farthest, std::abs(now - (d - (is_soft(row) ? t : 0.0))));
+      farthest = std::max(farthest, std::abs(now - (d - elastic(*side, row))));
     }
   }
   return farthest;
@@ -154,16 +156,6 @@ void BarrierRows::multipliers(VectorXd& result) const {
       if (is_bound(*side, row)) result(row) -= side->sign * side->z(row);
     }
   }
-}
-
-double BarrierRows::largest_breach(const VectorXd& values) const {
-  double largest = 0.0;
-  for (const Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (is_bound(*side, row)) largest = std::max(largest, -gap(*side, row, values(row)));
-    }
-  }
-  return largest;
 }
 
 }  // namespace prowl

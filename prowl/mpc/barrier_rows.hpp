@@ -36,8 +36,6 @@ class BarrierRows {
   double longest(const Eigen::VectorXd& change) const;
   /// Multipliers of the rows in the Lagrangian: negative at lower bounds.
   void multipliers(Eigen::VectorXd& result) const;
-  /// Largest elastic variable [units of the rows] beyond what the barrier leaves.
-  double largest_breach(const Eigen::VectorXd& values) const;
 
  private:
   struct Side {
@@ -48,6 +46,13 @@ class BarrierRows {
   };
   bool is_bound(const Side& side, Eigen::Index row) const { return std::abs(side.at(row)) < kHard; }
   bool is_soft(Eigen::Index row) const { return penalty_(row) < kHard; }
+  /// How far the bound gives way; a hard one does not.
+  double elastic(const Side& side, Eigen::Index row) const { return is_soft(row) ? side.t(row) : 0.0; }
+  /// Newton's step of one bound.
+  struct Move {
+    double d, z, t;
+  };
+  Move move(const Side& side, Eigen::Index row, double change) const;
   void center(Side& side, Eigen::Index row, double value, double mu);
   double gap(const Side& side, Eigen::Index row, double value) const { return side.sign * (value - side.at(row)); }
 

@@ -1,7 +1,6 @@
 #include "prowl/mpc/contact_timeline.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace prowl {
 namespace {
@@ -46,14 +45,6 @@ const ContactTimeline::Swing* ContactTimeline::swing(int foot, double t) const {
     if (swing.lift <= t && t < swing.land) return &swing;
   }
   return nullptr;
-}
-
-double ContactTimeline::next_landing(int foot, double t) const {
-  double next = std::numeric_limits<double>::infinity();
-  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
-    if (swing.land > t) next = std::min(next, swing.land);
-  }
-  return next;
 }
 
 void ContactTimeline::add_switches(double from, double to, std::vector<double>& switches) const {

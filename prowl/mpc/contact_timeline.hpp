@@ -29,15 +29,12 @@ class ContactTimeline {
 
   /// Continues with this pattern. Its feet must be those of the timeline.
   void follow(const SteppingPattern& pattern);
-  const SteppingPattern& pattern() const { return pattern_; }
   /// Adds the swings that begin before `until` [s], and forgets those that ended long before `now` [s].
   void extend(double now, double until);
 
   int num_feet() const { return static_cast<int>(swings_.size()); }
   /// The swing at time t [s], or nullptr: the foot stands. A foot stands at the moment of its landing.
   const Swing* swing(int foot, double t) const;
-  /// The first landing after t [s] of a foot, or infinity.
-  double next_landing(int foot, double t) const;
   /// Appends lift-offs and landings between both times [s], unordered.
   void add_switches(double from, double to, std::vector<double>& switches) const;
   /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has

@@ -8,6 +8,7 @@
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/transcription/node/independent_contacts.hpp"
+#include "prowl/transcription/variable_units.hpp"
 
 namespace prowl {
 namespace {
@@ -19,23 +20,6 @@ using Entry = Eigen::SparseMatrix<double>::InnerIterator;
 
 /// Least load of a standing contact in a horizon, as a share of its even load: a foot may nearly unload to balance.
 constexpr double kMpcLeastLoad = 0.02;
-
-VectorXd on_ground(const RobotModel& robot) {
-  VectorXd q = robot.nominal_configuration();
-  RigidBodyTerms terms(robot);
-  terms.update_kinematics(q);
-  std::vector<ContactTarget> targets;
-  for (int c = 0; c < static_cast<int>(robot.contacts().size()); ++c) {
-    Eigen::Vector3d position = terms.contact_position(c);
-    position.z() = robot.contacts()[static_cast<std::size_t>(c)].radius;
-    targets.push_back({c, position});
-  }
-  const InverseKinematics standing = inverse_kinematics(robot, q, targets);
-  constexpr double kOff = 1e-3;  // [m], as of the start of a planned motion
-  if (!(standing.residual <= kOff))
-    throw InputError(robot.name() + ": the nominal posture does not stand: its contacts do not reach the ground");
-  return standing.q;
-}
 
 /// Cost of the state, and of inputs, in physical units.
 QuadraticCost quadratic(const RobotModel& robot, const MpcWeights& w, const VectorXd& q_ref) {
@@ -81,6 +65,23 @@ QuadraticCost terminal(QuadraticCost cost, double factor) {
 
 }  // namespace
 
+VectorXd standing_on_ground(const RobotModel& robot) {
+  VectorXd q = robot.nominal_configuration();
+  RigidBodyTerms terms(robot);
+  terms.update_kinematics(q);
+  std::vector<ContactTarget> targets;
+  for (int c = 0; c < static_cast<int>(robot.contacts().size()); ++c) {
+    Eigen::Vector3d position = terms.contact_position(c);
+    position.z() = robot.contacts()[static_cast<std::size_t>(c)].radius;
+    targets.push_back({c, position});
+  }
+  const InverseKinematics standing = inverse_kinematics(robot, q, targets);
+  constexpr double kOff = 1e-3;  // [m], as of the start of a planned motion
+  if (!(standing.residual <= kOff))
+    throw InputError(robot.name() + ": the nominal posture does not stand: its contacts do not reach the ground");
+  return standing.q;
+}
+
 std::vector<std::vector<int>> contacts_of_feet(const RobotModel& robot) {
   RigidBodyTerms terms(robot);
   terms.update_kinematics(robot.nominal_configuration());
@@ -108,7 +109,7 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
       num_contacts_(static_cast<int>(robot.contacts().size())),
       length_(robot.size()),
       feet_(contacts_of_feet(robot)),
-      standing_(on_ground(robot)),
+      standing_(standing_on_ground(robot)),
       stages_(static_cast<std::size_t>(steps)) {
   make_sets(weights, friction);
   const NodeFunctions& any = *sets_.back().functions;
@@ -117,18 +118,13 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
   for (const ContactSet& set : sets_) num_chosen_ = std::max(num_chosen_, set.num_chosen());
   size_ = {nv_ + nu_ + num_chosen_, 2 * nv_, nv_, num_inequalities()};
 
-  const double time = std::sqrt(length_ / RobotModel::kGravity), force = robot.weight();
-  VectorXd q = VectorXd::Ones(nv_), tau = VectorXd::Constant(nu_, force * length_);
-  q.head<3>().setConstant(length_);
-  for (int i = 0; i < nu_; ++i) {
-    if (!robot.joint_is_prismatic()[static_cast<std::size_t>(i)]) continue;
-    q(6 + i) = length_;
-    tau(i) = force;
-  }
+  const VariableUnits unit(robot);
+  const VectorXd &q = unit.q, &tau = unit.tau;
+  const double time = unit.time;
   unit_.resize(size_.variables());
   unit_ << q / (time * time), tau, VectorXd::Ones(num_chosen_), q, q / time;
   row_units_.setOnes(num_inequalities());
-  row_units_.head(curve_row()).setConstant(force);
+  row_units_.head(curve_row()).setConstant(unit.force);
   for (int c = 0; c < num_contacts_; ++c)
     row_units_.segment<4>(height_row(c)) << length_, Eigen::Vector3d::Constant(length_ / time);
   row_units_.segment(position_row(0), nu_) = q.tail(nu_);
@@ -154,7 +150,7 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
     stage.step.v_ref.setZero(nv_);
     stage.chart.setIdentity();
     stage.ux.setZero(size_.variables());
-    stage.on = {VectorXd::Zero(nv_), VectorXd::Zero(num_inequalities()), VectorXd::Zero(2 * nv_)};
+    stage.on = {VectorXd::Zero(2 * nv_), VectorXd::Zero(nv_), VectorXd::Zero(num_inequalities())};
     stage.equalities.setZero(nv_);
     stage.inequalities.setZero(num_inequalities());
     stage.link.setZero(k + 1 < steps ? 2 * nv_ : 0);
@@ -186,7 +182,7 @@ void HorizonProgram::make_sets(const MpcWeights& weights, double friction) {
       .goal_tolerance = {}};
   problem.friction_model = FrictionModel::pyramid;
   problem.least_load = kMpcLeastLoad;
-  for (unsigned bits = 0; bits < (1U << feet_.size()); ++bits) {
+  for (unsigned bits = 0; bits < num_sets(); ++bits) {
     ContactSet& set = sets_.emplace_back();
     Phase phase{.name = "step", .contacts = {}, .duration = {0.1, 0.1}};
     for (std::size_t f = 0; f < feet_.size(); ++f) {

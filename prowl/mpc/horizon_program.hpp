@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "prowl/mpc/mpc_weights.hpp"
-#include "prowl/nlp/linearised_chain.hpp"
+#include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/transcription/half_step.hpp"
 #include "prowl/transcription/node/node_functions.hpp"
 #include "prowl/transcription/stage_slopes.hpp"
@@ -14,6 +14,9 @@ namespace prowl {
 
 /// Contacts of each foot: those on one body of the robot, in the order of RobotModel::contacts().
 std::vector<std::vector<int>> contacts_of_feet(const RobotModel& robot);
+
+/// The nominal posture with all contacts on the ground z = 0 (nq). Throws InputError if they do not reach it.
+Eigen::VectorXd standing_on_ground(const RobotModel& robot);
 
 /// What one step of the horizon is about, set before each linearisation.
 struct HorizonStep {
@@ -35,8 +38,7 @@ struct HorizonStep {
 /// but a step has one set of contacts and one torque, so that a switch needs no second node, and the first torque is
 /// that which acts. Contacts of feet that stand are held in velocity only: their anchors are where the feet are.
 ///
-/// Inequalities of a stage: friction pyramid of each contact of the
-/// robot | torque curves | height above the ground and
+/// Inequalities of a stage: friction pyramid of each contact of the robot | torque curves | height above the ground and
 /// velocity of each contact | joint positions | joint velocities | torques. Rows without meaning, as friction of a foot
 /// in the air, are constant. All stages have equal sizes, so that nothing is allocated after construction.
 ///
@@ -49,9 +51,11 @@ class HorizonProgram : public LinearisedChain {
 
   const RobotModel& robot() const { return robot_; }
   const std::vector<std::vector<int>>& feet() const { return feet_; }
-  /// The nominal posture with all contacts on the ground z = 0 (nq).
-  const Eigen::VectorXd& standing_posture() const { return standing_; }
+  const Eigen::VectorXd& standing_posture() const { return standing_; }  ///< standing_on_ground()
   int num_feet() const { return static_cast<int>(feet_.size()); }
+  unsigned num_sets() const { return 1U << feet_.size(); }  ///< of standing feet
+  /// Contacts of a set, in the order of RobotModel::contacts(). Bit f: foot f stands.
+  const std::vector<int>& contacts(unsigned standing) const { return sets_[standing].contacts; }
 
   // Rows of the inequalities.
   int friction_row(int contact) const { return FrictionLimit::kMostRows * contact; }  ///< of four
@@ -82,12 +86,7 @@ class HorizonProgram : public LinearisedChain {
   /// (q, v) as the states of stage k, in its chart and units.
   void to_states(int k, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& states) const;
 
-  /// Multipliers of stage k, of the equalities, the inequalities and the state of the next stage, all in units of the
-  /// stages.
-  struct Multipliers {
-    Eigen::VectorXd equalities, inequalities, next;
-  };
-  Multipliers& multipliers(int k) { return stages_[static_cast<std::size_t>(k)].on; }
+  StageMultipliers& multipliers(int k) { return stages_[static_cast<std::size_t>(k)].on; }
 
   void use_hessian(HessianKind kind);  ///< default: exact. Before the first step, as it moves the first stage
   /// Values and derivatives at the variables, with the Hessian of the Lagrangian. Throws NumericalError.
@@ -137,7 +136,7 @@ class HorizonProgram : public LinearisedChain {
     HorizonStep step;
     Eigen::Matrix3d chart;
     Eigen::VectorXd ux;
-    Multipliers on;
+    StageMultipliers on;
     Arrival arrival;
     Departure departure;
     double cost = 0.0;

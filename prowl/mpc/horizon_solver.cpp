@@ -41,7 +41,7 @@ void HorizonSolver::restart() {
   excess_ = kRestartExcess;
   for (int k = 0; k < program_.num_stages(); ++k) {
     rows_[k].reset();
-    HorizonProgram::Multipliers& on = program_.multipliers(k);
+    StageMultipliers& on = program_.multipliers(k);
     for (VectorXd* multipliers : {&on.equalities, &on.inequalities, &on.next}) multipliers->setZero();
   }
 }
@@ -137,7 +137,7 @@ bool HorizonSolver::step(const VectorXd& q, const VectorXd& v) {
   for (int k = 0; k < stages; ++k) {
     VectorXd& ux = program_.variables(k);
     ux += share_ * step_[k];
-    HorizonProgram::Multipliers& on = program_.multipliers(k);
+    StageMultipliers& on = program_.multipliers(k);
     on.equalities += share_ * (kkt_.on_equalities()[k] - on.equalities);
     if (k + 1 < stages) on.next += share_ * (kkt_.on_next()[k] - on.next);
     rows_[k].multipliers(on.inequalities);

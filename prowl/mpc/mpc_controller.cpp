@@ -13,7 +13,6 @@
 namespace prowl {
 namespace {
 
-using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -62,19 +61,11 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
       led_until_(t),
       place_(q.head<2>()),
       heading_(yaw(q)) {
-  for (unsigned bits = 0; bits < (1U << program_.num_feet()); ++bits) {
-    std::vector<int> contacts;
-    for (int f = 0; f < program_.num_feet(); ++f) {
-      const std::vector<int>& foot = program_.feet()[static_cast<std::size_t>(f)];
-      if (((bits >> f) & 1U) != 0) contacts.insert(contacts.end(), foot.begin(), foot.end());
-    }
-    std::ranges::sort(contacts);
-    dynamics_.push_back(std::make_unique<ForwardDynamics>(robot_, contacts, kContactRankThreshold));
+  for (unsigned bits = 0; bits < program_.num_sets(); ++bits) {
+    dynamics_.push_back(std::make_unique<ForwardDynamics>(robot_, program_.contacts(bits), kContactRankThreshold));
     dynamics_.back()->evaluate(q, VectorXd::Zero(robot.nv()), VectorXd::Zero(robot.nu()));  // sizes its work space
   }
-  std::vector<int> all;
-  for (int c = 0; c < static_cast<int>(robot.contacts().size()); ++c) all.push_back(c);
-  const StaticEquilibrium still = static_equilibrium(robot_, q, all);
+  const StaticEquilibrium still = static_equilibrium(robot_, q, program_.contacts(standing_at(t)));
   q_ = q_next_ = q;
   v_ = v_next_ = VectorXd::Zero(robot.nv());
   a_ = v_;
@@ -162,8 +153,8 @@ void MpcController::shift() {
     const MpcPlan::Step& source = plan_.steps()[static_cast<std::size_t>(from)];
     program_.set_stage(k, q_, v_, source.a, source.tau);
     const double factor = grid_.step(k) / old_lengths_[static_cast<std::size_t>(from)];
-    HorizonProgram::Multipliers& on = program_.multipliers(k);
-    const HorizonProgram::Multipliers& old = old_multipliers_[static_cast<std::size_t>(from)];
+    StageMultipliers& on = program_.multipliers(k);
+    const StageMultipliers& old = old_multipliers_[static_cast<std::size_t>(from)];
     on.equalities = factor * old.equalities;
     on.inequalities = factor * old.inequalities;
     on.next = old_multipliers_[static_cast<std::size_t>(std::min(old_step(grid_.time(k + 1)), steps - 2))].next;
@@ -223,7 +214,7 @@ void MpcController::set_bounds() {
       double least = -kInfinity, most = kInfinity, fastest = kInfinity;
       if (swing) {
         const double s = (t - swing->lift) / (swing->land - swing->lift);
-        least = ground + clearance * 16.0 * s * s * (1.0 - s) * (1.0 - s);
+        least = ground + clearance * swing_profile(s);
         const double left = swing->land - t;
         fastest = (kLandingSpeed + kLandingBrake * left) / speed;
         if (s > 0.5) least -= kPress * s / length;

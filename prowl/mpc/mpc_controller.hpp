@@ -44,7 +44,8 @@ struct MpcCounters {
 };
 
 /// Whole-body model predictive control of a robot that steps in a pattern on flat ground. update() plans, torque()
-/// gives the torques of the latest plan with its gains. After construction nothing is allocated and nothing thrown.
+/// gives the torques of the latest plan with its gains. After construction nothing is thrown, and nothing allocated but
+/// by follow().
 class MpcController {
  public:
   /// The robot stands still in its standing posture at (q, v) and time t [s]. Throws InputError if it cannot stand.
@@ -110,7 +111,7 @@ class MpcController {
   Eigen::Vector2d place_;  ///< where the command has led, world [m]
   double heading_;         ///< [rad]
   std::vector<BarrierRows> old_rows_;
-  std::vector<HorizonProgram::Multipliers> old_multipliers_;
+  std::vector<StageMultipliers> old_multipliers_;
   std::vector<double> old_lengths_;
   Eigen::VectorXd q_, v_, a_, tau_, q_next_, v_next_;
 };

@@ -9,10 +9,11 @@
 #include <set>
 
 #include "prowl/error.hpp"
-#include "prowl/estimation/state_estimator.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "prowl/simulation/actuators.hpp"
+#include "prowl/simulation/ground_error.hpp"
+#include "prowl/simulation/onboard.hpp"
 #include "prowl/simulation/sensors.hpp"
 
 namespace prowl {
@@ -27,23 +28,11 @@ constexpr double kFallHeight = 2.0 / 3.0, kFallTilt = 0.7;
 constexpr double kMostLastVelocity = 0.1;  ///< [m/s], at success
 constexpr double kLastSecond = 1.0;        ///< [s]
 constexpr double kPathRate = 10.0;         ///< [Hz]
-/// Unmodelled joint accelerations [rad²/s³] and noise of the filter: as on board of planned motions.
-constexpr double kJointDensity = 30.0;
 
 double thread_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
-  EstimatorNoise noise;
-  noise.encoder = std::max(scale * sensors.encoder, 1e-5);
-  noise.gyro = std::max(scale * sensors.gyro, 1e-5);
-  noise.accelerometer = std::max(scale * sensors.accelerometer, 1e-4);
-  noise.gyro_bias = noise.gyro;
-  noise.accelerometer_bias = noise.accelerometer;
-  return noise;
 }
 
 void check(const OnlineOptions& options) {
@@ -58,12 +47,10 @@ void check(const OnlineOptions& options) {
        "0 to 0.05 s");
 }
 
-Surface tilted(const GroundError& error, double friction) {
-  Surface ground{.name = "ground", .friction = friction};
-  const Eigen::Vector3d turn(error.tilt.x(), error.tilt.y(), 0.0);
-  ground.normal = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * Eigen::Vector3d::UnitZ();
-  ground.point.z() = error.height;
-  return ground;
+Surface real_ground(const OnlineOptions& options) {
+  const SimulationOptions& simulation = options.simulation;
+  const Surface level{.name = "ground", .friction = simulation.physics.friction.value_or(options.mpc.friction)};
+  return with_error({level}, Eigen::Vector3d::Zero(), simulation.ground).front();
 }
 
 class Run {
@@ -71,12 +58,12 @@ class Run {
   Run(const RobotModel& robot, const OnlineOptions& options)
       : robot_(robot),
         options_(options),
-        period_(1.0 / options.simulation.control_rate),
-        substeps_(std::max(1, static_cast<int>(std::ceil(period_ / options.simulation.physics.step - 1e-6)))),
-        standing_(HorizonProgram(robot, options.mpc.weights, options.mpc.friction, 2).standing_posture()),
+        period_(options.simulation.control_period()),
+        substeps_(options.simulation.substeps()),
+        standing_(standing_on_ground(robot)),
         mpc_(robot, with_delay(options), standing_, VectorXd::Zero(robot.nv()), 0.0),
-        ground_(tilted(options.simulation.ground, options.simulation.physics.friction.value_or(options.mpc.friction))),
-        physics_(robot, {ground_}, stepped(options.simulation.physics, period_ / substeps_)),
+        ground_(real_ground(options)),
+        physics_(robot, {ground_}, options.simulation.stepped_physics()),
         sensors_(robot.nu(), options.simulation.noise, options.simulation.noise_scale, options.simulation.seed),
         stand_{std::vector<bool>(robot.contacts().size(), true),
                std::vector<Eigen::Vector3d>(robot.contacts().size(), Eigen::Vector3d::UnitZ())},
@@ -115,10 +102,6 @@ class Run {
     MpcOptions mpc = options.mpc;
     mpc.delay = options.budget + options.simulation.delay;
     return mpc;
-  }
-  static PhysicsOptions stepped(PhysicsOptions options, double step) {
-    options.step = step;
-    return options;
   }
 
   void follow(const std::string& gait) { mpc_.follow(stepping_pattern(robot_, mpc_.feet(), standing_.z(), gait)); }
@@ -178,15 +161,11 @@ class Run {
   bool advance(double t) {
     const double step = period_ / substeps_;
     for (int i = 0; i < substeps_; ++i) {
-      const double now = t + i * step;
       q_before_ = physics_.q();
       v_before_ = physics_.v();
-      Eigen::Vector3d push = Eigen::Vector3d::Zero();
-      for (const Push& kick : options_.simulation.pushes)
-        if (now >= kick.time && now < kick.time + kick.duration) push += kick.impulse / kick.duration;
       const VectorXd& torque = actuators_->step(q_before_, v_before_);
       result_.largest_torque_share = std::max(result_.largest_torque_share, actuators_->largest_share());
-      if (!physics_.step(torque, push)) return false;
+      if (!physics_.step(torque, push_at(options_.simulation.pushes, t + i * step))) return false;
       if (!physics_.other_touch().empty()) touched_.insert(physics_.other_touch());
       sensors_.integrate(step, q_before_, v_before_, physics_.q(), physics_.v());
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "prowl/mpc/mpc_controller.hpp"
-#include "prowl/simulation/simulation_options.hpp"
+#include "prowl/simulation/simulation.hpp"
 
 namespace prowl {
 
@@ -39,7 +39,7 @@ struct OnlineOptions {
 
 /// What came of a run. A fall ends it.
 struct OnlineResult {
-  enum class End { finished, fell, diverged };
+  using End = SimulationResult::End;
   End end = End::finished;
   double end_time = 0.0;              ///< [s]
   std::vector<std::string> failures;  ///< in words; empty: success

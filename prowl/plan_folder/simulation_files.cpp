@@ -18,15 +18,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSimulationEngine = "mujoco";
 
-const char* to_text(SimulationResult::End end) {
-  switch (end) {
-    case SimulationResult::End::finished: return "finished";
-    case SimulationResult::End::fell: return "fell";
-    case SimulationResult::End::diverged: return "diverged";
-  }
-  return "unknown";
-}
-
 Json options_json(const SimulationOptions& options) {
   Json json = {{"seed", options.seed},
                {"control_rate_Hz", options.control_rate},
@@ -155,7 +146,7 @@ std::string simulation_json(const PlanRecord& plan, const SimulationRecord& reco
   const SimulationResult& result = record.result;
   const RobotModel& robot = plan.task.problem.robot;
   Json json =
-      verdict_json(plan, {kSimulationEngine, result.failures, to_text(result.end), result.end_time, result.phase});
+      verdict_json(plan, {kSimulationEngine, result.failures, to_string(result.end), result.end_time, result.phase});
   const SuccessCriteria& criteria = plan.task.success;
   json["criteria"]["slip_m"] = allowed_distance(robot, criteria);
   json["criteria"]["delay_s"] = criteria.delay;

@@ -9,20 +9,6 @@
 namespace prowl {
 namespace {
 
-// Unmodelled joint accelerations as white noise [rad²/s³]; choice: docs/simulation.md.
-constexpr double kJointDensity = 30.0;
-
-/// Noise assumed by the filter, which divides by it: never zero.
-EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
-  EstimatorNoise noise;
-  noise.encoder = std::max(scale * sensors.encoder, 1e-5);
-  noise.gyro = std::max(scale * sensors.gyro, 1e-5);
-  noise.accelerometer = std::max(scale * sensors.accelerometer, 1e-4);
-  noise.gyro_bias = noise.gyro;
-  noise.accelerometer_bias = noise.accelerometer;
-  return noise;
-}
-
 std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& tracker) {
   std::vector<Stand> stands;
   for (std::size_t s = 0; s < tracker.plan().segments.size(); ++s) {
@@ -56,6 +42,16 @@ GroundEstimator make_ground_estimator(const MotionProblem& problem, const Tracke
 }
 
 }  // namespace
+
+EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
+  EstimatorNoise noise;
+  noise.encoder = std::max(scale * sensors.encoder, 1e-5);
+  noise.gyro = std::max(scale * sensors.gyro, 1e-5);
+  noise.accelerometer = std::max(scale * sensors.accelerometer, 1e-4);
+  noise.gyro_bias = noise.gyro;
+  noise.accelerometer_bias = noise.accelerometer;
+  return noise;
+}
 
 Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options, double period)
     : tracker_(tracker),

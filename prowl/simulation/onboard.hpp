@@ -8,6 +8,12 @@
 
 namespace prowl {
 
+/// Unmodelled joint accelerations as white noise [rad²/s³]; choice: docs/simulation.md.
+constexpr double kJointDensity = 30.0;
+
+/// Noise assumed by the filter, which divides by it: never zero. `scale`: factor on that of the sensors.
+EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale);
+
 /// On-board software: estimators of state and ground, and tracker, from sensor readings to torques. It knows the
 /// plan, the nominal robot model, the sensor noise and the delay, but not the true state.
 class Onboard {

@@ -7,6 +7,7 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/simulation/actuators.hpp"
+#include "prowl/simulation/ground_error.hpp"
 #include "prowl/simulation/judge.hpp"
 #include "prowl/simulation/measures.hpp"
 #include "prowl/simulation/onboard.hpp"
@@ -61,33 +62,12 @@ void check(const MotionProblem& problem, const SimulationOptions& options, doubl
 
 constexpr double kLoaded = 0.01;  ///< of the weight: a foot with less may slip
 
-Eigen::Vector3d push_at(const std::vector<Push>& pushes, double t) {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  for (const Push& push : pushes) {
-    if (t >= push.time && t < push.time + push.duration) force += push.impulse / push.duration;
-  }
-  return force;
-}
-
-/// The surfaces as they are.
-std::vector<Surface> with_error(const MotionProblem& problem, const Tracker& tracker, const GroundError& error) {
+/// They turn about the place under the base at the start.
+std::vector<Surface> real_ground(const MotionProblem& problem, const Tracker& tracker, const GroundError& error) {
   Eigen::VectorXd q(problem.robot.nq()), v(problem.robot.nv());
   tracker.reference(tracker.start(), q, v);
   const double height = problem.robot.nominal_configuration().z();
-  const Eigen::Vector3d pivot = base_position(q) - height * Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d turn(error.tilt.x(), error.tilt.y(), 0.0);
-  const Eigen::Matrix3d R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  std::vector<Surface> surfaces = problem.surfaces;
-  for (Surface& surface : surfaces) {
-    const Surface planned = surface;
-    const auto moved = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-      return pivot + R * (p - pivot) + error.height * Eigen::Vector3d::UnitZ();
-    };
-    surface.point = moved(planned.point);
-    surface.normal = R * planned.normal;
-    for (Eigen::Vector2d& corner : surface.patch) corner = surface.coordinates(moved(planned.at(corner)));
-  }
-  return surfaces;
+  return with_error(problem.surfaces, base_position(q) - height * Eigen::Vector3d::UnitZ(), error);
 }
 
 std::vector<int> held_at_start(const MotionProblem& problem) {
@@ -119,11 +99,11 @@ class Run {
       : problem_(problem),
         tracker_(tracker),
         options_(options),
-        period_(1.0 / options.control_rate),
-        substeps_(std::max(1, static_cast<int>(std::ceil(period_ / options.physics.step - 1e-6)))),
+        period_(options.control_period()),
+        substeps_(options.substeps()),
         end_(end_of_simulation(problem, tracker, criteria)),
-        ground_(with_error(problem, tracker, options.ground)),
-        physics_(problem.robot, ground_, stepped(options.physics, period_ / substeps_)),
+        ground_(real_ground(problem, tracker, options.ground)),
+        physics_(problem.robot, ground_, options.stepped_physics()),
         sensors_(problem.robot.nu(), options.noise, options.noise_scale * options.unknown_noise, options.seed),
         onboard_(problem, tracker, options, period_),
         actuators_(problem.robot, period_ / substeps_, options.delay + options.unknown_delay, options.bandwidth,
@@ -166,10 +146,6 @@ class Run {
   }
 
  private:
-  static PhysicsOptions stepped(PhysicsOptions options, double step) {
-    options.step = step;
-    return options;
-  }
   static Eigen::VectorXd first_torque(const Tracker& tracker) {
     Eigen::VectorXd tau(tracker.plan().nu());
     tracker.feedforward(tracker.start(), tau);
@@ -237,6 +213,15 @@ class Run {
 };
 
 }  // namespace
+
+const char* to_string(SimulationResult::End end) {
+  switch (end) {
+    case SimulationResult::End::finished: return "finished";
+    case SimulationResult::End::fell: return "fell";
+    case SimulationResult::End::diverged: return "diverged";
+  }
+  return "unknown";
+}
 
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                           const SimulationOptions& options, const std::function<void(double, double)>& on_time) {

@@ -74,6 +74,8 @@ struct SimulationResult {
   std::vector<SimulationSample> samples;
 };
 
+const char* to_string(SimulationResult::End end);  ///< as in simulate.json
+
 /// Runs a plan with its tracker in MuJoCo (docs/simulation.md). `tracker` has one segment per phase
 /// of the problem, and optionally one for standing after the end. Ends early if the robot falls:
 /// has_fallen(). Deterministic, bit for bit. Throws InputError if the parts do not fit each other

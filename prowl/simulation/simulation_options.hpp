@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,6 +26,15 @@ struct Push {
   double time = 0.0;                                  ///< start [s]
   double duration = 0.1;                              ///< [s]
 };
+
+/// Force of all pushes at time t [s], world frame [N].
+inline Eigen::Vector3d push_at(const std::vector<Push>& pushes, double t) {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (const Push& push : pushes) {
+    if (t >= push.time && t < push.time + push.duration) force += push.impulse / push.duration;
+  }
+  return force;
+}
 
 /// What a simulation has to keep to succeed (docs/simulation.md). `[simulation]` of a task file can only ask for more.
 struct SuccessCriteria {
@@ -61,6 +72,19 @@ struct SimulationOptions {
   std::vector<Push> pushes;
   std::uint64_t seed = 1;
   double record_rate = 0.0;  ///< of SimulationResult::samples [Hz]; 0: none
+
+  double control_period() const { return 1.0 / control_rate; }  ///< [s]
+  /// Physics steps in a control period: equal ones, not longer than physics.step.
+  int substeps() const {
+    constexpr double kRounding = 1e-6;
+    return std::max(1, static_cast<int>(std::ceil(control_period() / physics.step - kRounding)));
+  }
+  /// The physics with that step.
+  PhysicsOptions stepped_physics() const {
+    PhysicsOptions stepped = physics;
+    stepped.step = control_period() / substeps();
+    return stepped;
+  }
 };
 
 }  // namespace prowl

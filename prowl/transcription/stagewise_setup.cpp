@@ -5,6 +5,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/transcription/stagewise_transcription.hpp"
+#include "prowl/transcription/variable_units.hpp"
 
 namespace prowl {
 
@@ -66,21 +67,14 @@ std::pair<double, double> StagewiseTranscription::bounds(int k, int variable) co
 }
 
 VectorXd StagewiseTranscription::units(int k) const {
-  const RobotModel& robot = discrete_.problem.robot;
-  const int nv = layout_.nv(), nu = layout_.nu(), own = layout_.node_size(k);
-  const double length = robot.size(), time = std::sqrt(length / RobotModel::kGravity), force = robot.weight();
-  VectorXd q = VectorXd::Ones(nv);
-  VectorXd tau = VectorXd::Constant(nu, force * length);
-  q.head<3>().setConstant(length);
-  for (int i = 0; i < nu; ++i) {
-    if (!robot.joint_is_prismatic()[i]) continue;
-    q(6 + i) = length;
-    tau(i) = force;
-  }
-  VectorXd units = VectorXd::Constant(nodes_.functions(k).num_columns(), length);
+  const VariableUnits unit(discrete_.problem.robot);
+  const VectorXd& q = unit.q;
+  const double time = unit.time;
+  const int own = layout_.node_size(k);
+  VectorXd units = VectorXd::Constant(nodes_.functions(k).num_columns(), unit.length);
   // Dependent forces stay in newtons: they have no cost, and initially only regularisation
   // determines them.
-  units.head(own) << q, q / time, q / (time * time), tau, VectorXd::Ones(layout_.num_w(k));
+  units.head(own) << q, q / time, q / (time * time), unit.tau, VectorXd::Ones(layout_.num_w(k));
   if (nodes_.functions(k).has_free_duration()) units(own) = time;
   return units;
 }

@@ -122,7 +122,7 @@ ALLOWED = {
         "prowl/transcription",
         "prowl/solvers",
     ],
-    "prowl/online": ["prowl/model", "prowl/estimation", "prowl/simulation", "prowl/mpc"],
+    "prowl/online": ["prowl/model", "prowl/simulation", "prowl/mpc"],
     # Files in, plans out.
     "prowl/task_file": [
         "prowl/text",

@@ -19,12 +19,11 @@ double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
   return time;
 }
 
-/// Fraction of the clearance at progress s in [0, 1] of a swing: 1 in the middle, or at the end of
-/// a swing that does not land. A contact leaves and lands at rest, so its height starts and ends
-/// quadratically in time; one in the air at the start begins at its start height.
+/// swing_profile() also of a swing that does not land, 1 at its end, or in the air at the start, which begins at its
+/// start height.
 double clearance_profile(const ContactSwing& swing, double s) {
   if (swing.after < 0) return swing.before < 0 ? 0.0 : s * s;
-  return 16.0 * s * s * (1.0 - s) * (1.0 - s);
+  return swing_profile(s);
 }
 
 }  // namespace

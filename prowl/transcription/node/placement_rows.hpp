@@ -17,6 +17,10 @@ struct LandingAxes {
   std::vector<int> velocity;
 };
 
+/// Fraction of the clearance at progress s in [0, 1] of a swing that lands: 1 in the middle. A contact leaves and lands
+/// at rest, so its height starts and ends quadratically in time.
+constexpr double swing_profile(double s) { return 16.0 * s * s * (1.0 - s) * (1.0 - s); }
+
 /// Constraints of one phase on contact positions, at its node k = 0 ... intervals:
 /// - A contact that lands at the first node, or stands there at a free start, is at its anchor and at rest:
 ///     axis . (p - anchor) = 0,  axis . J v = 0,
