@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 /// Part of a distance or multiplier that a step leaves at least.
 constexpr double kKept = 0.05;
 /// Multipliers stay within this factor of mu / d, as in Wächter and Biegler 2006, eq. (16).
-constexpr double kSpread = 1e4;
+constexpr double kSpread = 1e10;
 constexpr double kLeastDistance = 1e-9;
 
 }  // namespace
@@ -26,6 +26,8 @@ BarrierRows::BarrierRows(Index rows) : penalty_(VectorXd::Constant(rows, kHard))
     side->d.setOnes(rows);
     side->z.setZero(rows);
     side->t.setZero(rows);
+    side->zd.setZero(rows);
+    side->yt.setZero(rows);
     side->target.setZero(rows);
     side->compliance.setOnes(rows);
     side->gap.setZero(rows);
@@ -74,30 +76,75 @@ void BarrierRows::take_over(const BarrierRows& from, double factor) {
   take(from.upper_, upper_);
 }
 
-void BarrierRows::linearise(const VectorXd& values, double mu, VectorXd& weights, VectorXd& pull) {
-  mu_ = mu;
+void BarrierRows::open(const VectorXd& values, double mu, double distance) {
+  for (Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (!is_bound(*side, row)) continue;
+      double &d = side->d(row), &z = side->z(row), &t = side->t(row);
+      const double g = gap(*side, row, values(row));
+      d = std::max({d, g, distance});
+      z = std::max(z, mu / d);
+      if (!is_soft(row)) continue;
+      const double rho = penalty_(row);
+      t = std::max(d - g, std::min(distance, mu / rho));
+      z = std::clamp(z, std::min(mu / d, 0.5 * rho), std::max(0.5 * rho, rho - mu / t));
+    }
+  }
+}
+
+void BarrierRows::linearise(const VectorXd& values, double mu, VectorXd& weights) {
   weights.setZero(size());
-  pull.setZero(size());
   for (Side* side : {&lower_, &upper_}) {
     for (Index row = 0; row < size(); ++row) {
       if (!is_bound(*side, row)) continue;
       if (!(side->z(row) > 0.0)) center(*side, row, values(row), mu);
-      double &d = side->d(row), &z = side->z(row), &t = side->t(row);
-      double target = mu / z - d, compliance = d / z;
+      double &z = side->z(row), &t = side->t(row);
+      double compliance = side->d(row) / z;
       if (is_soft(row)) {
         // A penalty or a multiplier that was just scaled may not fit any more.
         z = std::min(z, 0.999 * penalty_(row));
         const double y = penalty_(row) - z;
         if (!(t > 0.0)) t = mu / y;
-        target = mu / z - d - (mu / y - t);
-        compliance = d / z + t / y;
+        compliance = side->d(row) / z + t / y;
       }
       side->gap(row) = gap(*side, row, values(row));
-      target -= side->gap(row) - (d - elastic(*side, row));
-      side->target(row) = target;
       side->compliance(row) = compliance;
       weights(row) += 1.0 / compliance;
-      pull(row) -= side->sign * (z + target / compliance);
+    }
+  }
+}
+
+void BarrierRows::set_target(Side& side, Index row, VectorXd& pull) {
+  const double d = side.d(row), z = side.z(row), t = side.t(row);
+  double target = side.zd(row) / z - d;
+  if (is_soft(row)) target -= side.yt(row) / (penalty_(row) - z) - t;
+  target -= side.gap(row) - (d - elastic(side, row));
+  side.target(row) = target;
+  pull(row) -= side.sign * (z + target / side.compliance(row));
+}
+
+void BarrierRows::aim(double mu, VectorXd& pull) {
+  mu_ = mu;
+  pull.setZero(size());
+  for (Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (!is_bound(*side, row)) continue;
+      side->zd(row) = side->yt(row) = mu;
+      set_target(*side, row, pull);
+    }
+  }
+}
+
+void BarrierRows::correct(double mu, const VectorXd& change, VectorXd& pull) {
+  mu_ = mu;
+  pull.setZero(size());
+  for (Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (!is_bound(*side, row)) continue;
+      const Move step = move(*side, row, change(row));
+      side->zd(row) = mu - step.z * step.d;
+      side->yt(row) = mu + step.z * step.t;
+      set_target(*side, row, pull);
     }
   }
 }
@@ -106,7 +153,7 @@ BarrierRows::Move BarrierRows::move(const Side& side, Index row, double change) 
   const double d = side.d(row), z = side.z(row), t = side.t(row);
   const double dz = (side.target(row) - side.sign * change) / side.compliance(row);
   const double y = penalty_(row) - z;
-  return {mu_ / z - d - d / z * dz, dz, is_soft(row) ? mu_ / y - t + t / y * dz : 0.0};
+  return {side.zd(row) / z - d - d / z * dz, dz, is_soft(row) ? side.yt(row) / y - t + t / y * dz : 0.0};
 }
 
 double BarrierRows::longest(const VectorXd& change) const {
@@ -123,6 +170,30 @@ double BarrierRows::longest(const VectorXd& change) const {
     }
   }
   return share;
+}
+
+double BarrierRows::products(const VectorXd& change, double share) const {
+  double sum = 0.0;
+  for (const Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (!is_bound(*side, row)) continue;
+      const Move step = move(*side, row, change(row));
+      const double z = side->z(row) + share * step.z;
+      sum += z * (side->d(row) + share * step.d);
+      if (is_soft(row)) sum += (penalty_(row) - z) * (side->t(row) + share * step.t);
+    }
+  }
+  return sum;
+}
+
+int BarrierRows::num_products() const {
+  int count = 0;
+  for (const Side* side : {&lower_, &upper_}) {
+    for (Index row = 0; row < size(); ++row) {
+      if (is_bound(*side, row)) count += is_soft(row) ? 2 : 1;
+    }
+  }
+  return count;
 }
 
 double BarrierRows::step(const VectorXd& change, double share) {

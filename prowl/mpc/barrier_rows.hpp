@@ -5,9 +5,9 @@
 
 namespace prowl {
 
-/// Inequalities lower <= r <= upper of one stage in an interior-point method whose barrier parameter mu stays fixed.
-/// Each finite bound has a distance d > 0, a multiplier z > 0, and, if it may give way, an elastic variable t > 0 at
-/// the price of `penalty` a unit: an exact penalty, which is 0 where the bound can be kept.
+/// Inequalities lower <= r <= upper of one stage in a primal-dual interior-point method. Each finite bound has a
+/// distance d > 0, a multiplier z > 0, and, if it may give way, an elastic variable t > 0 at the price of `penalty` a
+/// unit: an exact penalty, which is 0 where the bound can be kept. On the central path of a barrier parameter mu:
 ///
 ///   sign (r - bound) = d - t,   z d = mu,   (penalty - z) t = mu
 ///
@@ -27,13 +27,25 @@ class BarrierRows {
   /// Takes distances, multipliers and elastic variables over from a neighbouring stage; multipliers times `factor`.
   void take_over(const BarrierRows& from, double factor);
 
-  /// Newton's equations: weight of each row in the Hessian, and its pull: the derivative of the Lagrangian in r.
-  void linearise(const Eigen::VectorXd& values, double mu, Eigen::VectorXd& weights, Eigen::VectorXd& pull);
-  /// After linearise(): this share of a step of the rows. Returns how far distances then are from the rows, at most
-  /// [units of rows].
+  /// Leaves room for a new set of active bounds: distances of at least `distance`, and multipliers that neither vanish
+  /// nor exhaust their penalty, as on the path of mu.
+  void open(const Eigen::VectorXd& values, double mu, double distance);
+
+  /// Newton's equations at these values of the rows: their weights in the Hessian. `mu`: of bounds that start.
+  void linearise(const Eigen::VectorXd& values, double mu, Eigen::VectorXd& weights);
+  /// After linearise(): pull of each row, the derivative of the Lagrangian in r, for a step to the path of mu.
+  void aim(double mu, Eigen::VectorXd& pull);
+  /// After aim(0) and the step `change` of the rows that it gave: the pull with the products of second order of that
+  /// step, as in Mehrotra 1992.
+  void correct(double mu, const Eigen::VectorXd& change, Eigen::VectorXd& pull);
+  /// After aim() or correct(): takes this share of a step of the rows; of the multipliers as much as each allows.
+  /// Returns how far distances then are from the rows, at most [units of rows].
   double step(const Eigen::VectorXd& change, double share = 1.0);
-  /// After linearise(): the part of a step, at most 1, that keeps all distances and elastic variables positive.
+  /// The share of a step, at most 1, that keeps all distances and elastic variables positive.
   double longest(const Eigen::VectorXd& change) const;
+  /// Sum of z d and (penalty - z) t after this share of a step, and the number of these products.
+  double products(const Eigen::VectorXd& change, double share) const;
+  int num_products() const;
   /// Multipliers of the rows in the Lagrangian: negative at lower bounds.
   void multipliers(Eigen::VectorXd& result) const;
 
@@ -41,6 +53,7 @@ class BarrierRows {
   struct Side {
     double sign = 1.0;
     Eigen::VectorXd at, d, z, t;
+    Eigen::VectorXd zd, yt;              ///< products z d and (penalty - z) t that the step aims at
     Eigen::VectorXd target, compliance;  ///< dz = (target - sign change) / compliance
     Eigen::VectorXd gap;                 ///< of the latest linearise()
   };
@@ -53,12 +66,13 @@ class BarrierRows {
     double d, z, t;
   };
   Move move(const Side& side, Eigen::Index row, double change) const;
+  void set_target(Side& side, Eigen::Index row, Eigen::VectorXd& pull);
   void center(Side& side, Eigen::Index row, double value, double mu);
   double gap(const Side& side, Eigen::Index row, double value) const { return side.sign * (value - side.at(row)); }
 
   Side lower_, upper_;
   Eigen::VectorXd penalty_;
-  double mu_ = 0.0;
+  double mu_ = 0.0;  ///< that the step aims at
 };
 
 }  // namespace prowl

@@ -40,8 +40,10 @@ HorizonGrid::HorizonGrid(int steps, double first, double length) {
 
 void HorizonGrid::lay(double start, const ContactTimeline& timeline) {
   const int steps = num_steps();
+  // A switch just before the end counts once it leaves room for half of the last step.
+  const double last_step = nominal_[static_cast<std::size_t>(steps)] - nominal_[static_cast<std::size_t>(steps) - 1];
   switches_.clear();
-  timeline.add_switches(start + kShortestStep, start + length() - kShortestStep, switches_);
+  timeline.add_switches(start + kShortestStep, start + length() - 0.5 * last_step, switches_);
   std::sort(switches_.begin(), switches_.end());
   // Each alone, and no more than there are nodes inside.
   std::size_t count = 0;

@@ -16,7 +16,11 @@ constexpr double kFirstRegularisation = 1e-4, kGrowth = 8.0, kDecrease = 0.25, k
 constexpr double kLargestStep = 10.0;
 /// Steps that can act before the next plan, or the one after, replaces them.
 constexpr int kNearSteps = 8;
-constexpr double kRestartExcess = 100.0, kExcessDecrease = 0.2;
+/// Barrier parameters of steps of mean length: of bounds that start, and where a quadratic program whose first step
+/// does not fit begins anew, with distances of at least kOpenDistance [units of the rows].
+constexpr double kFreshBarrier = 1.0, kOpenBarrier = 1e-2, kOpenDistance = 0.05;
+/// A quadratic program ends with a mean product of distances and multipliers of so many times the barrier parameter.
+constexpr double kMostProducts = 30.0;
 
 }  // namespace
 
@@ -38,7 +42,6 @@ HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterat
 }
 
 void HorizonSolver::restart() {
-  excess_ = kRestartExcess;
   for (int k = 0; k < program_.num_stages(); ++k) {
     rows_[k].reset();
     StageMultipliers& on = program_.multipliers(k);
@@ -66,16 +69,34 @@ bool HorizonSolver::prepare() {
     return false;
   }
   if (!std::isfinite(violation_)) return false;
-  set_gradient();
+  set_weights();
+  aim(barrier_);
   kkt_.determine_inputs();
   return factorise();
+}
+
+/// A barrier parameter of a step of mean length for step k: the barrier is a running cost.
+double HorizonSolver::scaled(double barrier, int k) const { return barrier * program_.step(k).length / mean_length_; }
+
+void HorizonSolver::set_weights() {
+  for (int k = 0; k < program_.num_stages(); ++k)
+    rows_[k].linearise(inequalities_[k], scaled(kFreshBarrier, k), weights_[k]);
+}
+
+void HorizonSolver::aim(double barrier) {
+  for (int k = 0; k < program_.num_stages(); ++k) rows_[k].aim(scaled(barrier, k), pull_[k]);
+  set_gradient();
+}
+
+void HorizonSolver::correct(double barrier) {
+  for (int k = 0; k < program_.num_stages(); ++k)
+    rows_[k].correct(scaled(barrier, k), kkt_.along_inequalities()[k], pull_[k]);
+  set_gradient();
 }
 
 /// At the variables plus the step so far.
 void HorizonSolver::set_gradient() {
   for (int k = 0; k < program_.num_stages(); ++k) {
-    const double barrier = excess_ * barrier_ * program_.step(k).length / mean_length_;
-    rows_[k].linearise(inequalities_[k], barrier, weights_[k], pull_[k]);
     gradient_[k] = program_.cost_gradient(k);
     gradient_[k].noalias() += program_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step_[k];
     program_.add_pull_back(k, nothing_, pull_[k], gradient_[k]);
@@ -94,41 +115,72 @@ bool HorizonSolver::factorise() {
   return true;
 }
 
-/// The first step of a quadratic program is taken as a whole, as it removes the violations of dynamics and start. Those
-/// after it keep all distances positive.
-bool HorizonSolver::solve(bool whole) {
+bool HorizonSolver::find_direction() {
   kkt_.set_start(states_);
   kkt_.solve(gradient_, equalities_, links_, std::numeric_limits<double>::infinity());
-  states_.setZero();
-  residual_ = near_residual_ = 0.0;
-  double share = 1.0;
   for (int k = 0; k < program_.num_stages(); ++k) {
     if (!kkt_.steps()[k].allFinite() || !kkt_.on_equalities()[k].allFinite()) return false;
-    if (!whole) share = std::min(share, rows_[k].longest(kkt_.along_inequalities()[k]));
   }
+  return true;
+}
+
+double HorizonSolver::longest() const {
+  double share = 1.0;
+  for (int k = 0; k < program_.num_stages(); ++k)
+    share = std::min(share, rows_[k].longest(kkt_.along_inequalities()[k]));
+  return share;
+}
+
+void HorizonSolver::take(double share) {
+  residual_ = near_residual_ = 0.0;
   for (int k = 0; k < program_.num_stages(); ++k) {
     residual_ = std::max(residual_, rows_[k].step(kkt_.along_inequalities()[k], share));
     if (k < kNearSteps) near_residual_ = residual_;
     step_[k] += share * kkt_.steps()[k];
     inequalities_[k] += share * kkt_.along_inequalities()[k];
-    equalities_[k].setZero();
-    links_[k].setZero();
+    equalities_[k] *= 1.0 - share;
+    links_[k] *= 1.0 - share;
+  }
+  states_ *= 1.0 - share;
+}
+
+double HorizonSolver::mean_product(double share) const {
+  double sum = 0.0;
+  int count = 0;
+  for (int k = 0; k < program_.num_stages(); ++k) {
+    sum += rows_[k].products(kkt_.along_inequalities()[k], share);
+    count += rows_[k].num_products();
+  }
+  return sum / std::max(count, 1);
+}
+
+/// By Mehrotra's predictor and corrector, from distances that leave room.
+bool HorizonSolver::solve_anew() {
+  for (int k = 0; k < program_.num_stages(); ++k)
+    rows_[k].open(inequalities_[k], scaled(kOpenBarrier, k), kOpenDistance);
+  for (bool is_solved = false; !is_solved && done_ < iterations_; ++done_) {
+    set_weights();
+    aim(0.0);
+    if (!factorise() || !find_direction()) return false;
+    const double before = mean_product(0.0), ahead = mean_product(longest()) / before;
+    correct(std::max(barrier_, before * ahead * ahead * ahead));
+    if (!find_direction()) return false;
+    take(longest());
+    is_solved = residual_ <= kTolerance && mean_product(0.0) <= kMostProducts * barrier_;
   }
   return true;
 }
 
+/// The first step of a quadratic program is taken as a whole, as it removes the violations of dynamics and start.
 bool HorizonSolver::step(const VectorXd& q, const VectorXd& v) {
   const int stages = program_.num_stages();
   program_.to_states(0, q, v, states_);
   states_ -= program_.variables(0).tail(states_.size());
   start_ = states_;
-  if (!solve(true)) return false;
-  for (done_ = 1; done_ < iterations_ && (residual_ > kTolerance || excess_ > 1.0); ++done_) {
-    excess_ = std::max(1.0, kExcessDecrease * excess_);
-    set_gradient();
-    if (!factorise() || !solve(false)) return false;
-  }
-  excess_ = 1.0;
+  if (!find_direction()) return false;
+  take(1.0);
+  done_ = 1;
+  if (residual_ > kTolerance && !solve_anew()) return false;
   if (near_residual_ > kUnsolved) return false;
   double largest = 0.0;
   for (int k = 0; k < stages; ++k)

@@ -8,18 +8,16 @@
 
 namespace prowl {
 
-/// Steps of an interior-point method with a fixed barrier parameter on a HorizonProgram, each in two parts: all that
-/// the measured state does not change, and the rest. A step solves the quadratic program of one linearisation by a few
-/// iterations: the first has the factors of prepare().
+/// Steps of an interior-point method on a HorizonProgram, each in two parts: all that the measured state does not
+/// change, and the rest. A step solves the quadratic program of one linearisation. Its first iteration has the factors
+/// of prepare() and the active bounds of the step before. If these change, predictor-corrector iterations follow.
 class HorizonSolver {
  public:
   /// A view of `program`, which must outlive it. `barrier`: mu of a step of mean length.
-  /// `iterations` >= 1: most of each quadratic program. It ends when all rows are as far from their bounds as the
-  /// method thinks, within kTolerance.
+  /// `iterations` >= 1: most of each quadratic program. It ends when the distances fit their rows within kTolerance.
   HorizonSolver(HorizonProgram& program, double barrier, int iterations);
 
-  /// Forgets distances and multipliers of all rows. The next quadratic program begins with a larger barrier parameter,
-  /// as a point far from a small one's path hardly gets there.
+  /// Forgets distances and multipliers of all rows.
   void restart();
 
   BarrierRows& rows(int k) { return rows_[static_cast<std::size_t>(k)]; }
@@ -42,9 +40,17 @@ class HorizonSolver {
   static constexpr double kTolerance = 0.01, kUnsolved = 0.1;  ///< in units of the rows
 
  private:
+  double scaled(double barrier, int k) const;
+  void set_weights();
+  void aim(double barrier);
+  void correct(double barrier);
   void set_gradient();
   bool factorise();
-  bool solve(bool whole);
+  bool find_direction();
+  double longest() const;
+  void take(double share);
+  double mean_product(double share) const;
+  bool solve_anew();
 
   HorizonProgram& program_;
   StageKkt kkt_;
@@ -58,7 +64,6 @@ class HorizonSolver {
   Eigen::MatrixXd gain_;
   int done_ = 0;
   double residual_ = 0.0, near_residual_ = 0.0;
-  double excess_ = 1.0;  ///< of the barrier parameter
   double regularisation_ = 0.0, violation_ = 0.0, share_ = 1.0;
 };
 

@@ -138,7 +138,8 @@ void MpcController::lay_horizon(double start) {
   horizon_start_ = start;
 }
 
-/// Puts the last plan on the new steps.
+/// Puts the last plan on the new steps: its states, and the means of its accelerations and torques, which keep the
+/// dynamics of steps that end elsewhere.
 void MpcController::shift() {
   const int steps = options_.steps;
   for (int k = 0; k < steps; ++k) {
@@ -150,8 +151,9 @@ void MpcController::shift() {
   for (int k = 0; k < steps; ++k) {
     const int from = old_step(grid_.middle(k));
     plan_.state(grid_.time(k + 1), q_next_, v_next_);
-    const MpcPlan::Step& source = plan_.steps()[static_cast<std::size_t>(from)];
-    program_.set_stage(k, q_, v_, source.a, source.tau);
+    a_ = (v_next_ - v_) / grid_.step(k);
+    plan_.mean_torques(grid_.time(k), grid_.time(k + 1), tau_);
+    program_.set_stage(k, q_, v_, a_, tau_);
     const double factor = grid_.step(k) / old_lengths_[static_cast<std::size_t>(from)];
     StageMultipliers& on = program_.multipliers(k);
     const StageMultipliers& old = old_multipliers_[static_cast<std::size_t>(from)];
@@ -162,7 +164,7 @@ void MpcController::shift() {
     HorizonStep& step = program_.step(k);
     step.length = grid_.step(k);
     step.standing = standing_at(grid_.middle(k));
-    step.contact_time = std::max(0.5 * grid_.step(k), k < kSoftSteps ? kContactTime : 0.0);
+    step.contact_time = std::max(0.5 * grid_.step(k), k < kSoftSteps ? kContactTime : 0.5 * options_.first_step);
     std::swap(q_, q_next_);
     std::swap(v_, v_next_);
   }
@@ -217,7 +219,10 @@ void MpcController::set_bounds() {
         least = ground + clearance * swing_profile(s);
         const double left = swing->land - t;
         fastest = (kLandingSpeed + kLandingBrake * left) / speed;
-        if (s > 0.5) least -= kPress * s / length;
+        if (s > 0.5) {
+          least -= kPress * s / length;
+          most = ground + (kLandingSpeed + 0.5 * kLandingBrake * left) * left / length;  // from where it can brake
+        }
       } else if (k > 0 && ((program_.step(k - 1).standing >> f) & 1U) == 0) {
         const double late = timeline_.lateness(f, horizon_start_);
         most = ground - (kPress + kSearch * late) / length;  // lands at the start of this step

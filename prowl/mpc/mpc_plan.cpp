@@ -41,6 +41,17 @@ void MpcPlan::state(double t, VectorXd& q, VectorXd& v) const {
   v += 0.5 * s * step.a;
 }
 
+void MpcPlan::mean_torques(double from, double to, VectorXd& tau) const {
+  tau.setZero(robot_.nu());
+  double begin = from;
+  for (const Step& step : steps_) {
+    const double end = &step == &steps_.back() ? to : std::min(to, step.start + step.length);
+    if (end <= begin) continue;
+    tau += (end - begin) / (to - from) * step.tau;
+    begin = end;
+  }
+}
+
 void MpcPlan::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& tau) const {
   const Step& step = step_at(t);
   tau = step.tau;

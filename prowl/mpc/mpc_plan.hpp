@@ -34,6 +34,8 @@ class MpcPlan {
 
   /// x*(t); beyond the end the motion of the last step goes on for at most its length.
   void state(double t, Eigen::VectorXd& q, Eigen::VectorXd& v) const;
+  /// Mean over a span of time [s] of the torques tau_k; beyond the end those of the last step.
+  void mean_torques(double from, double to, Eigen::VectorXd& tau) const;
   /// tau for a state (q, v) at time t [s]. A state that is not finite gives tau_k alone.
   void torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) const;
 

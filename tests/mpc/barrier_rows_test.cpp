@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace prowl {
 namespace {
 
@@ -15,7 +18,8 @@ double minimise(BarrierRows& rows, double goal, double x, int iterations) {
   VectorXd values(1), weights, pull;
   for (int i = 0; i < iterations; ++i) {
     values(0) = x;
-    rows.linearise(values, kBarrier, weights, pull);
+    rows.linearise(values, kBarrier, weights);
+    rows.aim(kBarrier, pull);
     const double step = -(x - goal + pull(0)) / (1.0 + weights(0));
     rows.step(VectorXd::Constant(1, step));
     x += step;
@@ -50,7 +54,8 @@ TEST(BarrierRows, ThePriceOfASoftBoundIsExact) {
 TEST(BarrierRows, ABoundThatAppearsStartsOnItsCentralPath) {
   BarrierRows rows(1);
   VectorXd weights, pull;
-  rows.linearise(VectorXd::Constant(1, -4.0), kBarrier, weights, pull);
+  rows.linearise(VectorXd::Constant(1, -4.0), kBarrier, weights);
+  rows.aim(kBarrier, pull);
   EXPECT_EQ(weights(0), 0.0);
   EXPECT_EQ(pull(0), 0.0);
   rows.set_bounds(0, 0.0, BarrierRows::kHard, BarrierRows::kHard);
@@ -61,10 +66,40 @@ TEST(BarrierRows, TellsHowFarItIsFromTheRows) {
   BarrierRows rows(1);
   rows.set_bounds(0, 0.0, BarrierRows::kHard, BarrierRows::kHard);
   VectorXd weights, pull;
-  rows.linearise(VectorXd::Constant(1, 1.0), kBarrier, weights, pull);
+  rows.linearise(VectorXd::Constant(1, 1.0), kBarrier, weights);
+  rows.aim(kBarrier, pull);
   EXPECT_LT(rows.step(VectorXd::Constant(1, -0.5)), 1e-12);
-  rows.linearise(VectorXd::Constant(1, 0.5), kBarrier, weights, pull);
+  rows.linearise(VectorXd::Constant(1, 0.5), kBarrier, weights);
+  rows.aim(kBarrier, pull);
   EXPECT_GT(rows.step(VectorXd::Constant(1, -2.5)), 2.0) << "a step far beyond the bound";
+}
+
+TEST(BarrierRows, PredictorAndCorrectorFindANewActiveBoundFast) {
+  for (const double goal : {-2.0, 0.4, 2.0}) {
+    for (const double price : {10.0, BarrierRows::kHard}) {
+      BarrierRows rows(1);
+      rows.set_bounds(0, 0.0, 1.0, price);
+      double x = minimise(rows, goal > 1.0 ? -1.0 : 3.0, 0.5, 30);  // at the other bound
+      VectorXd values = VectorXd::Constant(1, x), weights, pull;
+      rows.open(values, 1e-2, 0.05);
+      for (int i = 0; i < 10; ++i) {
+        rows.linearise(values, 1e-2, weights);
+        const auto change = [&] {
+          return VectorXd(-(values - VectorXd::Constant(1, goal) + pull) / (1.0 + weights(0)));
+        };
+        rows.aim(0.0, pull);
+        VectorXd step = change();
+        const double ahead = rows.products(step, rows.longest(step)) / rows.products(step, 0.0);
+        rows.correct(std::max(kBarrier, std::pow(ahead, 3) * rows.products(step, 0.0) / rows.num_products()), step,
+                     pull);
+        step = change();
+        const double share = rows.longest(step);
+        rows.step(step, share);
+        values += share * step;
+      }
+      EXPECT_NEAR(values(0), std::clamp(goal, 0.0, 1.0), 1e-4) << goal << " " << price;
+    }
+  }
 }
 
 }  // namespace
