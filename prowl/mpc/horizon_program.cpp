@@ -115,7 +115,10 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
   const NodeFunctions& any = *sets_.back().functions;
   num_curve_rows_ = any.placement_row(0) - any.torque_row(0);
   num_rows_ = height_row(num_contacts_);
-  for (const ContactSet& set : sets_) num_chosen_ = std::max(num_chosen_, set.num_chosen());
+  for (ContactSet& set : sets_) {
+    num_chosen_ = std::max(num_chosen_, set.num_chosen());
+    for (int row = nv_; row < set.functions->num_rows(0); ++row) set.inequalities.push_back(find_inequality(set, row));
+  }
   size_ = {nv_ + nu_ + num_chosen_, 2 * nv_, nv_, num_inequalities()};
 
   const VariableUnits unit(robot);
@@ -275,7 +278,7 @@ void HorizonProgram::to_states(int k, const VectorXd& q, const VectorXd& v, Vect
   states.array() /= unit_.tail(2 * nv_).array();
 }
 
-int HorizonProgram::inequality_of(const ContactSet& set, int row) const {
+int HorizonProgram::find_inequality(const ContactSet& set, int row) const {
   const NodeFunctions& functions = *set.functions;
   if (row < functions.torque_row(0)) {
     const int of_contact = (row - nv_) % FrictionLimit::kMostRows, contact = (row - nv_) / FrictionLimit::kMostRows;
@@ -319,7 +322,7 @@ void HorizonProgram::linearise(int k) {
   const int rows = functions.num_rows(0), columns = functions.num_columns();
   set.on_rows.resize(rows);
   set.on_rows.head(nv_) = stage.on.equalities;
-  for (int row = nv_; row < rows; ++row) set.on_rows(row) = stage.on.inequalities(inequality_of(set, row));
+  for (int row = nv_; row < rows; ++row) set.on_rows(row) = stage.on.inequalities(set.inequality_of(row, nv_));
   functions.refer_to(stage.step.q_ref, stage.step.v_ref);
   functions.linearise(set.point, 1.0, set.on_rows, set.values, set.form);
   form_.topLeftCorner(columns, columns) = set.form;
@@ -367,7 +370,7 @@ void HorizonProgram::fill_values(int k, const ContactSet& set) {
   stage.equalities = set.values.rows.head(nv_);
   stage.inequalities.setZero();
   for (Index row = nv_; row < set.values.rows.size(); ++row)
-    stage.inequalities(inequality_of(set, static_cast<int>(row))) = set.values.rows(row);
+    stage.inequalities(set.inequality_of(row, nv_)) = set.values.rows(row);
   const VectorXd& node = stage.arrival.node();
   auto bounds = stage.inequalities.tail(3 * nu_);
   bounds << node.segment(6, nu_), node.segment(nv_ + 6, nu_), node.segment(3 * nv_, nu_);
@@ -402,7 +405,7 @@ void HorizonProgram::fill_slopes(int k, const ContactSet& set) {
   for (Index j = 0; j < size_.variables(); ++j) {
     const auto column = slopes_.col(node_variable(j));
     slopes.equalities.col(j) = unit_(j) * column.segment(6, nv_);
-    for (int row = nv_; row < rows; ++row) slopes.rows(j, inequality_of(set, row)) = unit_(j) * column(6 + row);
+    for (int row = nv_; row < rows; ++row) slopes.rows(j, set.inequality_of(row, nv_)) = unit_(j) * column(6 + row);
   }
 
   const double s = 0.5 * stage.step.length;

@@ -124,12 +124,16 @@ class HorizonProgram : public LinearisedChain {
     std::unique_ptr<DiscreteProblem> discrete;
     std::unique_ptr<NodeFunctions> functions;
     std::vector<int> contacts;
+    std::vector<int> inequalities;  ///< index of each row of the functions after the dynamics
     // Work space of its sizes.
     NodePoint point;
     NodeValues values;
     Eigen::VectorXd on_rows;
     Eigen::MatrixXd form;
 
+    int inequality_of(Eigen::Index row, int dynamics) const {
+      return inequalities[static_cast<std::size_t>(row - dynamics)];
+    }
     int num_chosen() const { return static_cast<int>(functions->chosen_rows().size()); }
   };
   struct Stage {
@@ -150,8 +154,7 @@ class HorizonProgram : public LinearisedChain {
   void set_point(Stage& stage, ContactSet& set);
   void fill_values(int k, const ContactSet& set);
   void fill_slopes(int k, const ContactSet& set);
-  /// Index among the inequalities of a row of the functions after the dynamics.
-  int inequality_of(const ContactSet& set, int row) const;
+  int find_inequality(const ContactSet& set, int row) const;
 
   RobotModel robot_;
   int nv_, nu_, num_contacts_, num_curve_rows_ = 0, num_rows_ = 0, num_chosen_ = 0;

@@ -6,18 +6,18 @@ namespace prowl {
 /// its weight m g, times by sqrt(l / g), so that they serve robots of any size.
 struct MpcWeights {
   // Of the running cost.
-  double place = 2.0;     ///< base, horizontal, from where the command leads
-  double height = 20.0;   ///< base
-  double tilt = 20.0;     ///< roll and pitch
-  double heading = 10.0;  ///< yaw
-  double posture = 0.5;   ///< joints from the standing posture
-  double velocity = 5.0;  ///< base, from the command
-  double climb = 2.0;     ///< base, vertical velocity
-  double turning = 1.0;   ///< base, angular velocity from the command
+  double place = 2.0;      ///< base, horizontal, from where the command leads
+  double height = 20.0;    ///< base
+  double tilt = 20.0;      ///< roll and pitch
+  double heading = 10.0;   ///< yaw
+  double posture = 0.5;    ///< joints from the standing posture
+  double velocity = 15.0;  ///< base, from the command
+  double climb = 15.0;     ///< base, vertical velocity
+  double turning = 3.0;    ///< base, angular velocity from the command
   double joint_rate = 0.01;
   double acceleration = 1e-3;  ///< of base and joints
   double torque = 0.05;
-  double force = 0.02;
+  double force = 0.15;
   double terminal = 1.0;  ///< factor on those of the state, as a cost of the end, times sqrt(l / g)
   // Prices of limits that may give way, per unit: larger than any multiplier of a motion that keeps them.
   double breach = 30.0;
