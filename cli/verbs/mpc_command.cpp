@@ -3,7 +3,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <random>
 
 #include "cli/options/shared_options.hpp"
 #include "cli/process/exit_status.hpp"
@@ -13,8 +12,12 @@
 #include "cli/screen/progress_bar.hpp"
 #include "cli/screen/wrap.hpp"
 #include "cli/verbs/commands.hpp"
+#include "prowl/files/atomic_folder.hpp"
+#include "prowl/files/csv_table.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "prowl/online/online_run.hpp"
+#include "prowl/online/random_events.hpp"
+#include "prowl/online/script_file.hpp"
 #include "prowl/session/environment.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "screen/online_summary.hpp"
@@ -22,18 +25,19 @@
 namespace prowl::cli {
 namespace {
 
-constexpr const char* kWorld = "World";                                   ///< group of --help
-constexpr double kCommandTime = 1.0;                                      ///< at which --command begins [s]
-constexpr double kKickEvery = 2.0, kKickDuration = 0.1, kQuietEnd = 1.9;  ///< of --kicks [s]
+constexpr const char* kWorld = "World";  ///< group of --help
+constexpr double kCommandTime = 1.0;     ///< at which --command begins [s]
 
 struct MpcArguments {
   std::string robot;
   std::vector<std::string> package_dirs;
   OnlineOptions options;
   std::vector<double> command{0.0, 0.0, 0.0};
-  std::vector<double> push;  ///< time, impulse in x, y, z
-  double kicks = 0.0;        ///< [m/s]
-  double slope = 0.0;        ///< [degrees]
+  std::vector<double> push;      ///< time, impulse in x, y, z
+  double kicks = 0.0;            ///< [m/s]
+  double random_commands = 0.0;  ///< [m/s] and [rad/s]
+  std::string script, save_times, replay_times;
+  double slope = 0.0;  ///< [degrees]
   double budget_ms = 1e3 * OnlineOptions{}.budget, period_ms = 1e3 * OnlineOptions{}.period;
   double delay_ms = 1e3 * SimulationOptions{}.delay;
   std::optional<double> friction;
@@ -41,14 +45,19 @@ struct MpcArguments {
   bool json = false;
 };
 
-/// A horizontal impulse of mass times `speed` in a random direction, again and again.
-void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options) {
-  std::mt19937_64 random(options.simulation.seed);
-  for (double t = kKickEvery; t < options.duration - kQuietEnd; t += kKickEvery) {
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(random()) * 0x1p-64;
-    options.simulation.pushes.push_back(
-        {{speed * robot.mass() * std::cos(angle), speed * robot.mass() * std::sin(angle), 0.0}, t, kKickDuration});
-  }
+/// One line a plan: its computing time [s].
+constexpr const char* kTimesColumn = "plan_s";
+
+void write_times(const std::string& file, const std::vector<double>& times) {
+  std::string text = fmt::format("{}\n", kTimesColumn);
+  for (const double time : times) text += fmt::format("{}\n", time);
+  write_file_atomically(file, text);
+}
+
+std::vector<double> read_times(const std::string& file) {
+  const CsvTable table = read_csv_table(read_text_file(file, kLongestTable));
+  const auto column = table.values.row(table.index(kTimesColumn));
+  return {column.begin(), column.end()};
 }
 
 int run_mpc(const MpcArguments& arguments) {
@@ -64,10 +73,21 @@ int run_mpc(const MpcArguments& arguments) {
   options.late = arguments.late == "drop" ? LatePlans::drop : LatePlans::act;
   options.commands.push_back(
       {kCommandTime, {arguments.command[0], arguments.command[1], arguments.command[2], 0.0}, {}});
-  options.simulation.pushes = read_pushes(arguments.push, kKickDuration);
+  options.simulation.pushes = read_pushes(arguments.push, Push{}.duration);
+  if (!arguments.script.empty()) {
+    const Script script = read_script(read_text_file(arguments.script));
+    options.commands = script.commands;
+    options.simulation.pushes.insert(options.simulation.pushes.end(), script.pushes.begin(), script.pushes.end());
+  }
+  if (arguments.random_commands > 0.0) {
+    options.commands.clear();
+    add_random_commands(arguments.random_commands, options);
+  }
   if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
+  if (!arguments.replay_times.empty()) options.replayed_times = read_times(arguments.replay_times);
   MotionProgress progress;
   const OnlineResult result = run_online(robot, options, std::ref(progress));
+  if (!arguments.save_times.empty()) write_times(arguments.save_times, result.times);
   const int status = result.success() ? kPassed : kSimulationFailed;
   if (arguments.json) {
     print_json({.verb = "mpc", .exit_status = status, .result = online_json(robot, options, result)});
@@ -145,6 +165,24 @@ void add_mpc_command(CLI::App& app, int& status) {
                    "repeats; or drop")
       ->check(one_of({"act", "drop"}))
       ->type_name("NAME");
+  CLI::Option* const script =
+      verb->add_option("--script", arguments->script, "Commands, gaits and pushes from a file (docs/mpc.md#a-script)")
+          ->type_name("FILE");
+  CLI::Option* const random =
+      verb->add_option("--random-commands", arguments->random_commands,
+                       "Every 1 to 4 s a random command: velocities within X m/s, turn rates within X rad/s")
+          ->type_name("X")
+          ->check(number_in(NumberRange::nonnegative()));
+  CLI::Option* const command = verb->get_option("--command");
+  script->excludes(random)->excludes(command);
+  random->excludes(command);
+  CLI::Option* const save = verb->add_option("--save-times", arguments->save_times,
+                                             "Write the computing time of each plan, for --replay-times")
+                                ->type_name("FILE");
+  verb->add_option("--replay-times", arguments->replay_times,
+                   "Take the computing times of plans from this file: repeats a run with --late drop")
+      ->type_name("FILE")
+      ->excludes(save);
   add_world_options(*verb, *arguments);
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);

@@ -16,9 +16,9 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Velocities of contacts that stand decay with this time constant at least [s] at the first step: what is measured of
-/// them is mostly noise.
-constexpr double kContactTime = 0.05;
+/// Velocities of contacts that stand decay with these time constants at least [s]. In the first steps slowly, as what
+/// is measured of them is mostly noise. Later at once in effect: slower decay holds more kicks, but lets feet creep.
+constexpr double kContactTime = 0.05, kLaterContactTime = 0.012;
 /// A foot is at most this fast when it lands [m/s], and before that as fast as it can brake with this [m/s^2].
 constexpr double kLandingSpeed = 0.1, kLandingBrake = 30.0;
 constexpr int kSoftSteps = 2;            ///< whose friction gives way as other limits do
@@ -164,7 +164,7 @@ void MpcController::shift() {
     HorizonStep& step = program_.step(k);
     step.length = grid_.step(k);
     step.standing = standing_at(grid_.middle(k));
-    step.contact_time = std::max(0.5 * grid_.step(k), k < kSoftSteps ? kContactTime : 0.5 * options_.first_step);
+    step.contact_time = std::max(0.5 * grid_.step(k), k < kSoftSteps ? kContactTime : kLaterContactTime);
     std::swap(q_, q_next_);
     std::swap(v_, v_next_);
   }

@@ -1,4 +1,4 @@
-"""Writes docs/reference.md: the keys of task, robot and job files, and the options of every verb.
+"""Writes docs/reference.md: the keys of task, robot, job and script files, and the options of every verb.
 
     write.py PROWL FILE_KEYS [--out docs/reference.md]
 
@@ -17,8 +17,8 @@ HEAD = """# Reference
 
 <!-- Written by scripts/reference: do not edit. -->
 
-All keys of task, robot and job files, and all options of the command. What a table cannot explain is on the pages
-[task file](task-file.md), [robot file](robot-file.md), [libraries](batch.md) and [command line](command-line.md).
+All keys of task, robot, job and script files, and all options of the command. What a table cannot explain is on the pages
+[task file](task-file.md), [robot file](robot-file.md), [libraries](batch.md), [online control](mpc.md) and [command line](command-line.md).
 
 Any other key is an error, and the message names the nearest key. Numbers are finite and at most 1e9 in size; angles are in
 radians. Names have at most 200 printable ASCII characters without `,` `"` `'` and `\\`, and no space at either end.
@@ -105,7 +105,7 @@ def verb_section(prowl: str, verb: tuple[str, ...]) -> str:
 def page(prowl: str, file_keys: str) -> str:
     keys = json.loads(subprocess.run([file_keys], capture_output=True, text=True, check=True).stdout)
     text = HEAD
-    for kind in ("task", "robot", "job"):
+    for kind in ("task", "robot", "job", "script"):
         text += f"\n## {kind.capitalize()} file\n" + key_tables(keys[kind])
     text += "\n## Command line\n\n`prowl VERB --help` shows the same with examples.\n"
     for heading, verb, _ in entries(help_of(prowl)):

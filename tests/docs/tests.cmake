@@ -4,7 +4,7 @@
 # docs/reference.md, which scripts/reference writes.
 add_executable(file_keys ${PROJECT_SOURCE_DIR}/site/reference/file_keys.cpp)
 set_target_properties(file_keys PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-target_link_libraries(file_keys PRIVATE prowl::batch nlohmann_json::nlohmann_json)
+target_link_libraries(file_keys PRIVATE prowl::batch prowl::online nlohmann_json::nlohmann_json)
 if(PROWL_BUILD_CLI)
   add_test(NAME docs/reference
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/reference_test.py $<TARGET_FILE:prowl_cli> $<TARGET_FILE:file_keys>)

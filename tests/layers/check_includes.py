@@ -122,7 +122,7 @@ ALLOWED = {
         "prowl/transcription",
         "prowl/solvers",
     ],
-    "prowl/online": ["prowl/model", "prowl/simulation", "prowl/mpc"],
+    "prowl/online": ["prowl/files", "prowl/model", "prowl/simulation", "prowl/mpc", "prowl/task_file"],
     # Files in, plans out.
     "prowl/task_file": [
         "prowl/text",

@@ -1,1 +1,2 @@
 prowl_test(online/online_run prowl::online)
+prowl_test(online/script_file prowl::online)
