@@ -56,7 +56,7 @@ TEST(OnlineRun, LatePlansAreLostAndTheirTimesRepeatTheRun) {
 TEST(OnlineRun, TellsAFall) {
   const RobotModel robot(test::hyq_description());
   OnlineOptions options = commanded(0.0);
-  options.simulation.pushes = {{{0.0, 3.0 * robot.mass(), 0.0}, 0.8, 0.1}};
+  options.simulation.pushes = {{{0.0, 10.0 * robot.mass(), 0.0}, 0.8, 0.1}};
   const OnlineResult result = run_online(robot, options);
   EXPECT_EQ(result.end, OnlineResult::End::fell);
   EXPECT_LT(result.end_time, 3.0);
