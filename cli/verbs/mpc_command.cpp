@@ -1,6 +1,6 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -49,9 +49,7 @@ struct MpcArguments {
 constexpr const char* kTimesColumn = "plan_s";
 
 void write_times(const std::string& file, const std::vector<double>& times) {
-  std::string text = fmt::format("{}\n", kTimesColumn);
-  for (const double time : times) text += fmt::format("{}\n", time);
-  write_file_atomically(file, text);
+  write_file_atomically(file, fmt::format("{}\n{}\n", kTimesColumn, fmt::join(times, "\n")));
 }
 
 std::vector<double> read_times(const std::string& file) {
@@ -71,17 +69,16 @@ int run_mpc(const MpcArguments& arguments) {
   options.simulation.physics.friction = arguments.friction;
   options.simulation.ground.tilt.y() = -arguments.slope * std::numbers::pi / 180.0;  // ahead the ground rises
   options.late = arguments.late == "drop" ? LatePlans::drop : LatePlans::act;
-  options.commands.push_back(
-      {kCommandTime, {arguments.command[0], arguments.command[1], arguments.command[2], 0.0}, {}});
   options.simulation.pushes = read_pushes(arguments.push, Push{}.duration);
   if (!arguments.script.empty()) {
-    const Script script = read_script(read_text_file(arguments.script));
-    options.commands = script.commands;
+    Script script = read_script(read_text_file(arguments.script));
+    options.commands = std::move(script.commands);
     options.simulation.pushes.insert(options.simulation.pushes.end(), script.pushes.begin(), script.pushes.end());
-  }
-  if (arguments.random_commands > 0.0) {
-    options.commands.clear();
+  } else if (arguments.random_commands > 0.0) {
     add_random_commands(arguments.random_commands, options);
+  } else {
+    const std::vector<double>& velocity = arguments.command;
+    options.commands.push_back({kCommandTime, {velocity[0], velocity[1], velocity[2], 0.0}, {}});
   }
   if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
   if (!arguments.replay_times.empty()) options.replayed_times = read_times(arguments.replay_times);

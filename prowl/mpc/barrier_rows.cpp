@@ -18,6 +18,15 @@ constexpr double kLeastDistance = 1e-9;
 
 }  // namespace
 
+template <class Rows, class Each>
+void BarrierRows::for_each_bound(Rows& rows, const Each& each) {
+  for (auto* const side : {&rows.lower_, &rows.upper_}) {
+    for (Index row = 0; row < rows.size(); ++row) {
+      if (rows.is_bound(*side, row)) each(*side, row);
+    }
+  }
+}
+
 BarrierRows::BarrierRows(Index rows) : penalty_(VectorXd::Constant(rows, kHard)) {
   lower_.sign = 1.0;
   upper_.sign = -1.0;
@@ -77,41 +86,35 @@ void BarrierRows::take_over(const BarrierRows& from, double factor) {
 }
 
 void BarrierRows::open(const VectorXd& values, double mu, double distance) {
-  for (Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (!is_bound(*side, row)) continue;
-      double &d = side->d(row), &z = side->z(row), &t = side->t(row);
-      const double g = gap(*side, row, values(row));
-      d = std::max({d, g, distance});
-      z = std::max(z, mu / d);
-      if (!is_soft(row)) continue;
-      const double rho = penalty_(row);
-      t = std::max(d - g, std::min(distance, mu / rho));
-      z = std::clamp(z, std::min(mu / d, 0.5 * rho), std::max(0.5 * rho, rho - mu / t));
-    }
-  }
+  for_each_bound(*this, [&](Side& side, Index row) {
+    double &d = side.d(row), &z = side.z(row), &t = side.t(row);
+    const double g = gap(side, row, values(row));
+    d = std::max({d, g, distance});
+    z = std::max(z, mu / d);
+    if (!is_soft(row)) return;
+    const double rho = penalty_(row);
+    t = std::max(d - g, std::min(distance, mu / rho));
+    z = std::clamp(z, std::min(mu / d, 0.5 * rho), std::max(0.5 * rho, rho - mu / t));
+  });
 }
 
 void BarrierRows::linearise(const VectorXd& values, double mu, VectorXd& weights) {
   weights.setZero(size());
-  for (Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (!is_bound(*side, row)) continue;
-      if (!(side->z(row) > 0.0)) center(*side, row, values(row), mu);
-      double &z = side->z(row), &t = side->t(row);
-      double compliance = side->d(row) / z;
-      if (is_soft(row)) {
-        // A penalty or a multiplier that was just scaled may not fit any more.
-        z = std::min(z, 0.999 * penalty_(row));
-        const double y = penalty_(row) - z;
-        if (!(t > 0.0)) t = mu / y;
-        compliance = side->d(row) / z + t / y;
-      }
-      side->gap(row) = gap(*side, row, values(row));
-      side->compliance(row) = compliance;
-      weights(row) += 1.0 / compliance;
+  for_each_bound(*this, [&](Side& side, Index row) {
+    if (!(side.z(row) > 0.0)) center(side, row, values(row), mu);
+    double &z = side.z(row), &t = side.t(row);
+    double compliance = side.d(row) / z;
+    if (is_soft(row)) {
+      // A penalty or a multiplier that was just scaled may not fit any more.
+      z = std::min(z, 0.999 * penalty_(row));
+      const double y = penalty_(row) - z;
+      if (!(t > 0.0)) t = mu / y;
+      compliance = side.d(row) / z + t / y;
     }
-  }
+    side.gap(row) = gap(side, row, values(row));
+    side.compliance(row) = compliance;
+    weights(row) += 1.0 / compliance;
+  });
 }
 
 void BarrierRows::set_target(Side& side, Index row, VectorXd& pull) {
@@ -126,27 +129,21 @@ void BarrierRows::set_target(Side& side, Index row, VectorXd& pull) {
 void BarrierRows::aim(double mu, VectorXd& pull) {
   mu_ = mu;
   pull.setZero(size());
-  for (Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (!is_bound(*side, row)) continue;
-      side->zd(row) = side->yt(row) = mu;
-      set_target(*side, row, pull);
-    }
-  }
+  for_each_bound(*this, [&](Side& side, Index row) {
+    side.zd(row) = side.yt(row) = mu;
+    set_target(side, row, pull);
+  });
 }
 
 void BarrierRows::correct(double mu, const VectorXd& change, VectorXd& pull) {
   mu_ = mu;
   pull.setZero(size());
-  for (Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (!is_bound(*side, row)) continue;
-      const Move step = move(*side, row, change(row));
-      side->zd(row) = mu - step.z * step.d;
-      side->yt(row) = mu + step.z * step.t;
-      set_target(*side, row, pull);
-    }
-  }
+  for_each_bound(*this, [&](Side& side, Index row) {
+    const Move step = move(side, row, change(row));
+    side.zd(row) = mu - step.z * step.d;
+    side.yt(row) = mu + step.z * step.t;
+    set_target(side, row, pull);
+  });
 }
 
 BarrierRows::Move BarrierRows::move(const Side& side, Index row, double change) const {
@@ -161,72 +158,55 @@ double BarrierRows::longest(const VectorXd& change) const {
   const auto keep = [&share](double value, double step) {
     if (step < 0.0) share = std::min(share, -(1.0 - kKept) * value / step);
   };
-  for (const Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (!is_bound(*side, row)) continue;
-      const Move step = move(*side, row, change(row));
-      keep(side->d(row), step.d);
-      keep(side->t(row), step.t);
-    }
-  }
+  for_each_bound(*this, [&](const Side& side, Index row) {
+    const Move step = move(side, row, change(row));
+    keep(side.d(row), step.d);
+    keep(side.t(row), step.t);
+  });
   return share;
 }
 
 double BarrierRows::products(const VectorXd& change, double share) const {
   double sum = 0.0;
-  for (const Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (!is_bound(*side, row)) continue;
-      const Move step = move(*side, row, change(row));
-      const double z = side->z(row) + share * step.z;
-      sum += z * (side->d(row) + share * step.d);
-      if (is_soft(row)) sum += (penalty_(row) - z) * (side->t(row) + share * step.t);
-    }
-  }
+  for_each_bound(*this, [&](const Side& side, Index row) {
+    const Move step = move(side, row, change(row));
+    const double z = side.z(row) + share * step.z;
+    sum += z * (side.d(row) + share * step.d);
+    if (is_soft(row)) sum += (penalty_(row) - z) * (side.t(row) + share * step.t);
+  });
   return sum;
 }
 
 int BarrierRows::num_products() const {
   int count = 0;
-  for (const Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (is_bound(*side, row)) count += is_soft(row) ? 2 : 1;
-    }
-  }
+  for_each_bound(*this, [&](const Side&, Index row) { count += is_soft(row) ? 2 : 1; });
   return count;
 }
 
 double BarrierRows::step(const VectorXd& change, double share) {
   double farthest = 0.0;
-  for (Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (!is_bound(*side, row)) continue;
-      double &d = side->d(row), &z = side->z(row), &t = side->t(row);
-      const Move step = move(*side, row, change(row));
-      if (is_soft(row)) {
-        const double y = penalty_(row) - z;
-        t = std::max(t + share * step.t, kKept * t);
-        z = std::clamp(z + step.z, kKept * z, penalty_(row) - kKept * y);
-      } else {
-        z = std::max(z + step.z, kKept * z);
-      }
-      d = std::max({d + share * step.d, kKept * d, kLeastDistance});
-      const double central = mu_ / d;
-      z = std::clamp(z, central / kSpread, central * kSpread);
-      const double now = side->gap(row) + side->sign * share * change(row);
-      farthest = std::max(farthest, std::abs(now - (d - elastic(*side, row))));
+  for_each_bound(*this, [&](Side& side, Index row) {
+    double &d = side.d(row), &z = side.z(row), &t = side.t(row);
+    const Move step = move(side, row, change(row));
+    if (is_soft(row)) {
+      const double y = penalty_(row) - z;
+      t = std::max(t + share * step.t, kKept * t);
+      z = std::clamp(z + step.z, kKept * z, penalty_(row) - kKept * y);
+    } else {
+      z = std::max(z + step.z, kKept * z);
     }
-  }
+    d = std::max({d + share * step.d, kKept * d, kLeastDistance});
+    const double central = mu_ / d;
+    z = std::clamp(z, central / kSpread, central * kSpread);
+    const double now = side.gap(row) + side.sign * share * change(row);
+    farthest = std::max(farthest, std::abs(now - (d - elastic(side, row))));
+  });
   return farthest;
 }
 
 void BarrierRows::multipliers(VectorXd& result) const {
   result.setZero(size());
-  for (const Side* side : {&lower_, &upper_}) {
-    for (Index row = 0; row < size(); ++row) {
-      if (is_bound(*side, row)) result(row) -= side->sign * side->z(row);
-    }
-  }
+  for_each_bound(*this, [&](const Side& side, Index row) { result(row) -= side.sign * side.z(row); });
 }
 
 }  // namespace prowl

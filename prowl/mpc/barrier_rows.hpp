@@ -58,6 +58,9 @@ class BarrierRows {
     Eigen::VectorXd gap;                 ///< of the latest linearise()
   };
   bool is_bound(const Side& side, Eigen::Index row) const { return std::abs(side.at(row)) < kHard; }
+  /// each(side, row) for all finite bounds of these `rows`, lower ones first.
+  template <class Rows, class Each>
+  static void for_each_bound(Rows& rows, const Each& each);
   bool is_soft(Eigen::Index row) const { return penalty_(row) < kHard; }
   /// How far the bound gives way; a hard one does not.
   double elastic(const Side& side, Eigen::Index row) const { return is_soft(row) ? side.t(row) : 0.0; }

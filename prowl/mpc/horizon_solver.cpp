@@ -144,20 +144,20 @@ void HorizonSolver::take(double share) {
   states_ *= 1.0 - share;
 }
 
-double HorizonSolver::mean_product(double share) const {
+double HorizonSolver::products(double share) const {
   double sum = 0.0;
-  int count = 0;
-  for (int k = 0; k < program_.num_stages(); ++k) {
-    sum += rows_[k].products(kkt_.along_inequalities()[k], share);
-    count += rows_[k].num_products();
-  }
-  return sum / std::max(count, 1);
+  for (int k = 0; k < program_.num_stages(); ++k) sum += rows_[k].products(kkt_.along_inequalities()[k], share);
+  return sum;
 }
 
 /// By Mehrotra's predictor and corrector, from distances that leave room.
 bool HorizonSolver::solve_anew() {
-  for (int k = 0; k < program_.num_stages(); ++k)
+  int count = 0;
+  for (int k = 0; k < program_.num_stages(); ++k) {
     rows_[k].open(inequalities_[k], scaled(kOpenBarrier, k), kOpenDistance);
+    count += rows_[k].num_products();
+  }
+  const auto mean_product = [&](double share) { return products(share) / std::max(count, 1); };
   for (bool is_solved = false; !is_solved && done_ < iterations_; ++done_) {
     set_weights();
     aim(0.0);

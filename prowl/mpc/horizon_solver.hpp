@@ -49,7 +49,7 @@ class HorizonSolver {
   bool find_direction();
   double longest() const;
   void take(double share);
-  double mean_product(double share) const;
+  double products(double share) const;
   bool solve_anew();
 
   HorizonProgram& program_;

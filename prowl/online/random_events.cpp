@@ -1,8 +1,6 @@
 #include "prowl/online/random_events.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <random>
+#include "prowl/simulation/perturbations.hpp"
 
 namespace prowl {
 namespace {
@@ -12,34 +10,26 @@ constexpr double kFirstCommand = 1.0, kCommandFor = 1.0, kCommandSpread = 3.0, k
 /// Kicks and commands of one seed have nothing in common.
 constexpr std::uint64_t kKickStream = 1, kCommandStream = 2;
 
-/// The same numbers on all platforms, which std::uniform_real_distribution does not promise.
-class Evenly {
- public:
-  Evenly(std::uint64_t seed, std::uint64_t stream) : random_(seed * 4 + stream) {}
-  double operator()(double lower, double upper) {
-    return lower + (upper - lower) * static_cast<double>(random_()) * 0x1p-64;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
+std::mt19937_64 stream_of(const OnlineOptions& options, std::uint64_t stream) {
+  return std::mt19937_64(options.simulation.seed * 4 + stream);
+}
 
 }  // namespace
 
 void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options) {
-  Evenly random(options.simulation.seed, kKickStream);
+  std::mt19937_64 random = stream_of(options, kKickStream);
   for (double t = kKickEvery; t < options.duration - kAfterKick; t += kKickEvery) {
-    const double angle = random(0.0, 2.0 * std::numbers::pi), impulse = speed * robot.mass();
-    options.simulation.pushes.push_back({{impulse * std::cos(angle), impulse * std::sin(angle), 0.0}, t});
+    options.simulation.pushes.push_back({speed * robot.mass() * draw_direction(random), t});
   }
 }
 
 void add_random_commands(double most, OnlineOptions& options) {
-  Evenly random(options.simulation.seed, kCommandStream);
+  std::mt19937_64 random = stream_of(options, kCommandStream);
   for (double t = kFirstCommand; t < options.duration - kAfterCommand;
-       t += kCommandFor + kCommandSpread * random(0.0, 1.0)) {
+       t += kCommandFor + kCommandSpread * draw_between(0.0, 1.0, random)) {
     TimedCommand timed{.time = t, .command = {}};
-    for (double* part : {&timed.command.forward, &timed.command.left, &timed.command.turn}) *part = random(-most, most);
+    for (double* part : {&timed.command.forward, &timed.command.left, &timed.command.turn})
+      *part = draw_between(-most, most, random);
     options.commands.push_back(timed);
   }
 }

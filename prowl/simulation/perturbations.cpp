@@ -28,13 +28,6 @@ long fewest_contacts(const Tracker& tracker, double from, double to) {
   return fewest;
 }
 
-/// Draws evenly between both; as many random numbers for equal ones.
-double draw_between(double low, double high, std::mt19937_64& random) {
-  const bool is_range = low < high;
-  const double drawn = (is_range ? Uniform(low, high) : Uniform(0.0, 1.0))(random);
-  return is_range ? drawn : low;
-}
-
 struct DrawnKind {
   const char* name;
   void (*leave_out)(PerturbationRanges& ranges);
@@ -71,11 +64,22 @@ PerturbationRanges only(const std::vector<std::string>& kinds, PerturbationRange
   return ranges;
 }
 
-Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, double duration, std::mt19937_64& random) {
+double draw_between(double low, double high, std::mt19937_64& random) {
+  const bool is_range = low < high;
+  const double drawn = (is_range ? Uniform(low, high) : Uniform(0.0, 1.0))(random);
+  return is_range ? drawn : low;
+}
+
+Eigen::Vector3d draw_direction(std::mt19937_64& random) {
   const double angle = Uniform(0.0, 2.0 * std::numbers::pi)(random);
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, double duration, std::mt19937_64& random) {
+  const Eigen::Vector3d direction = draw_direction(random);
   const double time = Uniform(tracker.start(), tracker.end())(random);
   const double size = fewest_contacts(tracker, time, time + duration) <= 2 ? on_two_feet : impulse;
-  return {size * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0), time, duration};
+  return {size * direction, time, duration};
 }
 
 StartError draw_start_error(const RobotModel& robot, double share, std::mt19937_64& random,

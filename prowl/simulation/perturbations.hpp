@@ -39,6 +39,11 @@ std::vector<std::string> perturbation_kinds();
 /// `ranges` without the kinds that `kinds` leaves out; empty: none. Throws InputError for an unknown name.
 PerturbationRanges only(const std::vector<std::string>& kinds, PerturbationRanges ranges = {});
 
+/// Draws evenly between both; as many random numbers for equal ones.
+double draw_between(double low, double high, std::mt19937_64& random);
+/// A random horizontal unit vector.
+Eigen::Vector3d draw_direction(std::mt19937_64& random);
+
 /// A push in a random horizontal direction, at a random time of the motion. `on_two_feet`: its impulse [N s] where at
 /// most two contacts hold.
 Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, double duration, std::mt19937_64& random);
