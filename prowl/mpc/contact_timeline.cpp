@@ -47,6 +47,14 @@ const ContactTimeline::Swing* ContactTimeline::swing(int foot, double t) const {
   return nullptr;
 }
 
+const ContactTimeline::Swing* ContactTimeline::landed(int foot, double t) const {
+  const Swing* latest = nullptr;
+  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+    if (swing.land <= t) latest = &swing;
+  }
+  return latest;
+}
+
 void ContactTimeline::add_switches(double from, double to, std::vector<double>& switches) const {
   for (const std::vector<Swing>& swings : swings_) {
     for (const Swing& swing : swings) {

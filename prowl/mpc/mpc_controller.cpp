@@ -18,9 +18,12 @@ using Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Velocities of contacts that stand decay with these time constants at least [s]. In the first steps slowly, as what
 /// is measured of them is mostly noise. Later at once in effect: slower decay holds more kicks, but lets feet creep.
-constexpr double kContactTime = 0.05, kLaterContactTime = 0.012;
+constexpr double kContactTime = 0.05, kLaterContactTime = 0.02;
 /// A foot is at most this fast when it lands [m/s], and before that as fast as it can brake with this [m/s^2].
 constexpr double kLandingSpeed = 0.1, kLandingBrake = 30.0;
+/// Until its landing is felt, a foot carries at most this share of the weight, plus this share a second since it should
+/// have landed, for so long [s]. More would throw a leg at the ground that comes a few milliseconds late: it bounces.
+constexpr double kLandingLoad = 0.15, kLoadRate = 15.0, kLandingTime = 0.05;
 constexpr int kSoftSteps = 2;            ///< whose friction gives way as other limits do
 constexpr double kFrictionPrice = 10.0;  ///< of friction in later steps, times the price of others: it hardly gives way
 constexpr int kMostFailures = 5;         ///< in a row, before an update starts anew
@@ -32,14 +35,12 @@ constexpr double kLeash = 0.1, kTurnLeash = 0.15;
 /// A foot that has not landed when a plan is made does not carry at the start of that plan, for so long [s].
 constexpr double kSoon = 5e-3;
 constexpr double kPredictionStep = 2e-3;  ///< [s]
-constexpr double kGroundTime = 0.1;       ///< filter of the height of the ground [s]
+constexpr double kGroundTime = 0.1;       ///< filter of height and slope of the ground [s]
 constexpr int kFirstIterations = 30;      ///< of the plan with which a controller begins
 /// Largest commands: speed over sqrt(g height), and turn times sqrt(height / g); and the largest changes of both a
 /// second, over g, and times height / g.
 constexpr double kMostSpeed = 0.45, kMostTurn = 0.25, kMostPush = 0.15, kMostSpin = 0.2;
 constexpr double kMostHeight = 0.15;  ///< of the standing height, up and down
-/// Damping of the joints after the end of a plan: the torque limit at half of the largest velocity.
-constexpr double kDampedAt = 0.5;
 
 double yaw(const VectorXd& q) { return rpy_from_rotation(base_rotation(q)).z(); }
 
@@ -58,6 +59,7 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
       plan_(robot_, options.steps),
       previous_(robot_, options.steps),
       terms_(robot_),
+      ground_(static_cast<int>(robot.contacts().size()), robot.size()),
       led_until_(t),
       place_(q.head<2>()),
       heading_(yaw(q)) {
@@ -65,6 +67,9 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
     dynamics_.push_back(std::make_unique<ForwardDynamics>(robot_, program_.contacts(bits), kContactRankThreshold));
     dynamics_.back()->evaluate(q, VectorXd::Zero(robot.nv()), VectorXd::Zero(robot.nu()));  // sizes its work space
   }
+  terms_.update_kinematics(program_.standing_posture());
+  for (const std::vector<int>& foot : program_.feet())
+    offsets_.emplace_back(terms_.contact_position(foot.front()).head<2>() - program_.standing_posture().head<2>());
   const StaticEquilibrium still = static_equilibrium(robot_, q, program_.contacts(standing_at(t)));
   q_ = q_next_ = q;
   v_ = v_next_ = VectorXd::Zero(robot.nv());
@@ -187,14 +192,16 @@ void MpcController::lead(double start) {
   const auto [forward, left, turn, raised] = smooth_;
   place_ += dt * Eigen::Vector2d(cos * forward - sin * left, sin * forward + cos * left);
   heading_ = wrapped(heading_ + dt * turn);
-  const double height = ground_ + standing + raised;
   for (int k = 0; k < options_.steps; ++k) {
     HorizonStep& step = program_.step(k);
     const double ahead = grid_.middle(k) - start, turned = heading_ + ahead * turn;
     const double middle = heading_ + 0.5 * ahead * turn, c = std::cos(middle), s = std::sin(middle);
     step.q_ref = program_.standing_posture();
-    step.q_ref.head<3>() << place_ + ahead * Eigen::Vector2d(c * forward - s * left, s * forward + c * left), height;
-    set_base_rotation(step.q_ref, Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+    const Eigen::Vector2d place = place_ + ahead * Eigen::Vector2d(c * forward - s * left, s * forward + c * left);
+    step.q_ref.head<3>() << place, ground_.height(place) + standing + raised;
+    // The base stays parallel to the ground: the joints are as on level ground.
+    set_base_rotation(step.q_ref, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ground_.normal()) *
+                                      Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitZ()).toRotationMatrix());
     step.v_ref.setZero();
     step.v_ref.head<2>() << forward, left;
     step.v_ref(5) = turn;
@@ -203,16 +210,18 @@ void MpcController::lead(double start) {
 
 void MpcController::set_bounds() {
   const double price = options_.weights.breach;
-  const double length = program_.length_unit(), ground = ground_ / length;
+  const double length = program_.length_unit();
   const double speed = program_.row_unit(program_.contact_velocity_row(0));
   const double clearance = options_.clearance * program_.standing_posture().z() / length;
   for (int k = 0; k < options_.steps; ++k) {
     BarrierRows& rows = solver_.rows(k);
     const HorizonStep& step = program_.step(k);
     const double t = grid_.middle(k), soft = price * step.length;
+    program_.get_state(k, q_, v_);
     for (int f = 0; f < program_.num_feet(); ++f) {
       const bool stands = ((step.standing >> f) & 1U) != 0;
       const ContactTimeline::Swing* const swing = timeline_.swing(f, t);
+      const double ground = ground_under(f, q_) / length;
       double least = -kInfinity, most = kInfinity, fastest = kInfinity;
       if (swing) {
         const double s = (t - swing->lift) / (swing->land - swing->lift);
@@ -228,9 +237,10 @@ void MpcController::set_bounds() {
         most = ground - (kPress + kSearch * late) / length;  // lands at the start of this step
         least = most - kOnGround / length;
       }
+      const double most_friction = stands ? most_friction_row(f, t) : kInfinity;
       for (const int contact : program_.feet()[static_cast<std::size_t>(f)]) {
         for (int i = 0; i < FrictionLimit::kMostRows; ++i)
-          rows.set_bounds(program_.friction_row(contact) + i, stands ? 0.0 : -kInfinity, kInfinity,
+          rows.set_bounds(program_.friction_row(contact) + i, stands ? 0.0 : -kInfinity, most_friction,
                           (k < kSoftSteps ? 1.0 : kFrictionPrice) * soft);
         rows.set_bounds(program_.height_row(contact), least, most, soft);
         for (int axis = 0; axis < 3; ++axis)
@@ -249,6 +259,16 @@ void MpcController::set_bounds() {
       rows.set_bounds(program_.torque_row(j), -torque, torque, BarrierRows::kHard);
     }
   }
+}
+
+/// Upper bound of the friction rows of a contact of a foot that stands at time t: it keeps the normal force of one that
+/// has not been felt yet below what it may carry, as two opposite rows add up to sqrt(2) times friction times that.
+double MpcController::most_friction_row(int foot, double t) const {
+  const ContactTimeline::Swing* const landed = timeline_.landed(foot, t);
+  if (!landed || landed->has_touched || t - landed->land > kLandingTime) return kInfinity;
+  const double load = robot_.weight() * (kLandingLoad + kLoadRate * (t - landed->land));
+  const auto contacts = static_cast<double>(program_.feet()[static_cast<std::size_t>(foot)].size());
+  return options_.friction / std::numbers::sqrt2 * load / contacts / program_.row_unit(program_.friction_row(0));
 }
 
 bool MpcController::plan(const VectorXd& q, const VectorXd& v, double t) {
@@ -320,20 +340,26 @@ void MpcController::read_plan() {
   }
 }
 
+/// From the contacts of feet that stand, but those that have just landed without being felt.
 void MpcController::find_ground(const VectorXd& q, double t) {
   terms_.update_kinematics(q);
-  double sum = 0.0;
-  int count = 0;
   for (int f = 0; f < program_.num_feet(); ++f) {
     if (timeline_.swing(f, t)) continue;
+    const ContactTimeline::Swing* const landed = timeline_.landed(f, t);
+    if (landed && !landed->has_touched && t - landed->land < kLandingTime) continue;
     for (const int contact : program_.feet()[static_cast<std::size_t>(f)]) {
-      sum += terms_.contact_position(contact).z() - robot_.contacts()[static_cast<std::size_t>(contact)].radius;
-      ++count;
+      const double radius = robot_.contacts()[static_cast<std::size_t>(contact)].radius;
+      ground_.see(contact, terms_.contact_position(contact) - radius * Eigen::Vector3d::UnitZ());
     }
   }
-  if (count == 0) return;
-  const double share = counters_.updates == 0 ? 1.0 : std::min(1.0, 0.01 / kGroundTime);
-  ground_ += share * (sum / count - ground_);
+  ground_.fit(counters_.updates == 0 ? 1.0 : std::min(1.0, 0.01 / kGroundTime));
+}
+
+/// Height of the ground under a foot of the standing posture whose base is at q [m].
+double MpcController::ground_under(int foot, const VectorXd& q) const {
+  const double turned = yaw(q), c = std::cos(turned), s = std::sin(turned);
+  const Eigen::Vector2d& off = offsets_[static_cast<std::size_t>(foot)];
+  return ground_.height(q.head<2>() + Eigen::Vector2d(c * off.x() - s * off.y(), s * off.x() + c * off.y()));
 }
 
 void MpcController::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& tau) {
@@ -343,13 +369,7 @@ void MpcController::torque(double t, const VectorXd& q, const VectorXd& v, Vecto
     return;
   }
   ++counters_.damped;
-  tau.setZero(robot_.nu());
-  if (!q.allFinite() || !v.allFinite()) return;
-  for (int j = 0; j < robot_.nu(); ++j) {
-    const double slope = robot_.torque_limit()(j) / (kDampedAt * robot_.velocity_limit()(j));
-    if (std::isfinite(slope)) tau(j) = -slope * v(6 + j);
-  }
-  clamp_torques(robot_, q, v, tau);
+  damping_torques(robot_, q, v, tau);
 }
 
 }  // namespace prowl

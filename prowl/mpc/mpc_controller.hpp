@@ -6,6 +6,7 @@
 
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/mpc/contact_timeline.hpp"
+#include "prowl/mpc/ground_plane.hpp"
 #include "prowl/mpc/horizon_grid.hpp"
 #include "prowl/mpc/horizon_program.hpp"
 #include "prowl/mpc/horizon_solver.hpp"
@@ -31,6 +32,8 @@ struct MpcCommand {
   double forward = 0.0, left = 0.0;  ///< [m/s]
   double turn = 0.0;                 ///< about the vertical [rad/s]
   double height = 0.0;               ///< of the base, from its standing height [m]
+
+  bool operator==(const MpcCommand&) const = default;
 };
 
 /// Events since the start of a controller.
@@ -85,12 +88,14 @@ class MpcController {
  private:
   void lay_horizon(double start);
   void set_bounds();
+  double most_friction_row(int foot, double t) const;
   void shift();
   void lead(double start);
   void predict(Eigen::VectorXd& q, Eigen::VectorXd& v, double from, double to);
   void restart();
   void read_plan();
   void find_ground(const Eigen::VectorXd& q, double t);
+  double ground_under(int foot, const Eigen::VectorXd& q) const;
   unsigned standing_at(double t) const;
 
   RobotModel robot_;
@@ -106,7 +111,8 @@ class MpcController {
   MpcCounters counters_;
   std::vector<std::unique_ptr<ForwardDynamics>> dynamics_;  ///< by the bits of standing feet
   RigidBodyTerms terms_;
-  double ground_ = 0.0;  ///< height of the ground [m]
+  GroundPlane ground_;
+  std::vector<Eigen::Vector2d> offsets_;  ///< of each foot from the base in the standing posture, axes of heading [m]
   double horizon_start_ = 0.0, led_until_;
   Eigen::Vector2d place_;  ///< where the command has led, world [m]
   double heading_;         ///< [rad]

@@ -76,4 +76,15 @@ void clamp_torques(const RobotModel& robot, const VectorXd& q, const VectorXd& v
   }
 }
 
+void damping_torques(const RobotModel& robot, const VectorXd& q, const VectorXd& v, VectorXd& tau) {
+  constexpr double kDampedAt = 0.5;  // of the largest velocity, where damping takes the whole torque limit
+  tau.setZero(robot.nu());
+  if (!q.allFinite() || !v.allFinite()) return;
+  for (int j = 0; j < robot.nu(); ++j) {
+    const double slope = robot.torque_limit()(j) / (kDampedAt * robot.velocity_limit()(j));
+    if (std::isfinite(slope)) tau(j) = -slope * v(6 + j);
+  }
+  clamp_torques(robot, q, v, tau);
+}
+
 }  // namespace prowl

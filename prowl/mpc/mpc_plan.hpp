@@ -48,4 +48,7 @@ class MpcPlan {
 /// Clamps torques to the limits of the robot at joint positions and velocities of the state (q, v).
 void clamp_torques(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau);
 
+/// Torques that damp the joints, within their limits; zero for a state that is not finite.
+void damping_torques(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau);
+
 }  // namespace prowl

@@ -65,6 +65,28 @@ TEST(MpcController, PlansStepsThatItCanFollow) {
     EXPECT_TRUE((step.tau.cwiseAbs().array() <= standing.robot.torque_limit().array() + unsolved).all());
 }
 
+/// A leg that pushes hard before its foot has touched is thrown at the ground, and bounces.
+TEST(MpcController, LoadsLandingFeetLittleByLittle) {
+  Standing standing;
+  standing.trot();
+  constexpr double kPeriod = 0.01, kSoon = 0.03;  // [s]
+  int landings = 0;
+  for (double t = 0.0; t < 3.0; t += kPeriod) {
+    const std::vector<MpcPlan::Step>& steps = standing.mpc.latest().steps();
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+      if (steps[k].start + 0.5 * steps[k].length > t + 0.2) break;  // later steps are solved less well
+      for (int foot = 0; foot < 4; ++foot) {
+        const bool lands = ((steps[k].standing & ~steps[k - 1].standing) >> foot & 1U) != 0;
+        if (!lands || steps[k].length > kSoon) continue;
+        ++landings;
+        EXPECT_LT(steps[k].force(3 * foot + 2), 0.4 * standing.robot.weight()) << t << ", foot " << foot;
+      }
+    }
+    follow_plan(standing, t, t + kPeriod);
+  }
+  EXPECT_GT(landings, 50);
+}
+
 TEST(MpcController, GainsAreTheDerivativeOfThePlannedTorque) {
   Standing standing;
   standing.trot();
