@@ -1,4 +1,4 @@
-# The pages of `prowl report` and `prowl library`, built from report/ by the Node.js of the wheels. scripts/setup fetches the packages that it takes;
+# The pages of `prowl report`, `prowl library` and `prowl mpc`, built from report/ by the Node.js of the wheels. scripts/setup fetches the packages that it takes;
 # in a build by pip they are fetched here.
 get_filename_component(python_folder ${PROWL_PYTHON} DIRECTORY)
 find_program(PROWL_NODE node HINTS ${python_folder})
@@ -15,11 +15,12 @@ if(NOT PROWL_NODE OR NOT EXISTS ${report}/node_modules/.package-lock.json)
   return()
 endif()
 set(pages ${PROJECT_BINARY_DIR}/share/prowl)
+set(page_files ${pages}/report.html ${pages}/library.html ${pages}/online.html)
 file(GLOB sources CONFIGURE_DEPENDS ${report}/src/*)
-add_custom_command(OUTPUT ${pages}/report.html ${pages}/library.html
+add_custom_command(OUTPUT ${page_files}
   COMMAND ${PROWL_NODE} ${report}/build.mjs ${pages}
   DEPENDS ${sources} ${report}/build.mjs ${report}/package-lock.json
-  COMMENT "Building the pages of prowl report and prowl library" VERBATIM)
-add_custom_target(report_page ALL DEPENDS ${pages}/report.html ${pages}/library.html)
+  COMMENT "Building the pages of report/" VERBATIM)
+add_custom_target(report_page ALL DEPENDS ${page_files})
 add_dependencies(prowl_cli report_page)
-install(FILES ${pages}/report.html ${pages}/library.html DESTINATION ${CMAKE_INSTALL_DATADIR}/prowl COMPONENT runtime)
+install(FILES ${page_files} DESTINATION ${CMAKE_INSTALL_DATADIR}/prowl COMPONENT runtime)

@@ -59,4 +59,5 @@ async function page(entry, title, packages) {
 
 await mkdir(path.resolve(out), { recursive: true });
 await writeFile(path.join(out, "report.html"), await page("main.ts", "Prowl report", ["three", "uplot"]));
+await writeFile(path.join(out, "online.html"), await page("online.ts", "Prowl online", ["three", "uplot"]));
 await writeFile(path.join(out, "library.html"), await page("library.ts", "Prowl library", ["uplot"]));

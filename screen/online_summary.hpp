@@ -6,8 +6,7 @@
 
 namespace prowl {
 
-/// A run under online control in words, and as a JSON object.
+/// A run under online control in words.
 std::string online_summary(const RobotModel& robot, const OnlineOptions& options, const OnlineResult& result);
-std::string online_json(const RobotModel& robot, const OnlineOptions& options, const OnlineResult& result);
 
 }  // namespace prowl

@@ -12,13 +12,19 @@
 #include "cli/screen/progress_bar.hpp"
 #include "cli/screen/wrap.hpp"
 #include "cli/verbs/commands.hpp"
+#include "cli/verbs/mpc_benchmark.hpp"
+#include "cli/verbs/mpc_view.hpp"
+#include "cli/verbs/report_page.hpp"
 #include "prowl/files/atomic_folder.hpp"
 #include "prowl/files/csv_table.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
+#include "prowl/online/online_json.hpp"
 #include "prowl/online/online_run.hpp"
 #include "prowl/online/random_events.hpp"
 #include "prowl/online/script_file.hpp"
+#include "prowl/report_page/online_page.hpp"
 #include "prowl/session/environment.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "screen/online_summary.hpp"
 
@@ -26,7 +32,10 @@ namespace prowl::cli {
 namespace {
 
 constexpr const char* kWorld = "World";  ///< group of --help
-constexpr double kCommandTime = 1.0;     ///< at which --command begins [s]
+constexpr const char *kPages = "Pages", *kBenchmark = "Benchmark";
+constexpr double kCommandTime = 1.0;  ///< at which --command begins [s]
+constexpr double kPageRate = 30.0;    ///< of the moments that a page shows [Hz]
+constexpr double kViewed = 600.0;     ///< duration of --view without --duration [s]
 
 struct MpcArguments {
   std::string robot;
@@ -36,7 +45,10 @@ struct MpcArguments {
   std::vector<double> push;      ///< time, impulse in x, y, z
   double kicks = 0.0;            ///< [m/s]
   double random_commands = 0.0;  ///< [m/s] and [rad/s]
-  std::string script, save_times, replay_times;
+  std::string script, save_times, replay_times, page;
+  bool view = false;
+  std::uint16_t port = 0;
+  MpcBenchmark benchmark;
   double slope = 0.0;  ///< [degrees]
   double budget_ms = 1e3 * OnlineOptions{}.budget, period_ms = 1e3 * OnlineOptions{}.period;
   double delay_ms = 1e3 * SimulationOptions{}.delay;
@@ -58,17 +70,20 @@ std::vector<double> read_times(const std::string& file) {
   return {column.begin(), column.end()};
 }
 
-int run_mpc(const MpcArguments& arguments) {
-  check_mujoco();
-  const RobotModel robot =
-      load_robot(read_text_file(find_robot(arguments.robot)), package_search(arguments.package_dirs));
+/// What all runs have in common: controller and world.
+OnlineOptions base_options(const RobotModel& robot, const MpcArguments& arguments, const PackageSearch& search) {
   OnlineOptions options = arguments.options;
   options.budget = 1e-3 * arguments.budget_ms;
   options.period = 1e-3 * arguments.period_ms;
   options.simulation.delay = 1e-3 * arguments.delay_ms;
   options.simulation.physics.friction = arguments.friction;
+  options.simulation.physics.collisions = collision_shapes(robot, search);
   options.simulation.ground.tilt.y() = -arguments.slope * std::numbers::pi / 180.0;  // ahead the ground rises
   options.late = arguments.late == "drop" ? LatePlans::drop : LatePlans::act;
+  return options;
+}
+
+void add_events(const RobotModel& robot, const MpcArguments& arguments, OnlineOptions& options) {
   options.simulation.pushes = read_pushes(arguments.push, Push{}.duration);
   if (!arguments.script.empty()) {
     Script script = read_script(read_text_file(arguments.script));
@@ -82,9 +97,32 @@ int run_mpc(const MpcArguments& arguments) {
   }
   if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
   if (!arguments.replay_times.empty()) options.replayed_times = read_times(arguments.replay_times);
+}
+
+void write_page(const RobotModel& robot, const MpcArguments& arguments, const OnlineOptions& options,
+                const OnlineResult& result, const PackageSearch& search) {
+  std::vector<std::string> warnings;
+  const std::string html =
+      online_page({robot, options, result, page_without_data("online"), PageState::file}, search, warnings);
+  for (const std::string& warning : warnings) print_message(fmt::format("warning: {}\n", warning));
+  write_file_atomically(arguments.page, html);
+  print_message(fmt::format("page: {}, {:.1f} MB\n", arguments.page, 1e-6 * static_cast<double>(html.size())));
+}
+
+int run_mpc(const MpcArguments& arguments) {
+  check_mujoco();
+  const PackageSearch search = package_search(arguments.package_dirs);
+  const RobotModel robot = load_robot(read_text_file(find_robot(arguments.robot)), search);
+  OnlineOptions options = base_options(robot, arguments, search);
+  if (!arguments.benchmark.file.empty()) return run_mpc_benchmark(robot, options, arguments.benchmark, arguments.json);
+  add_events(robot, arguments, options);
+  if (arguments.view || !arguments.page.empty()) options.simulation.record_rate = kPageRate;
   MotionProgress progress;
-  const OnlineResult result = run_online(robot, options, std::ref(progress));
+  const OnlineResult result = arguments.view
+                                  ? view_online(robot, options, search, arguments.port)
+                                  : run_online(robot, options, [&](OnlineMoment& at) { progress(at.time, at.end); });
   if (!arguments.save_times.empty()) write_times(arguments.save_times, result.times);
+  if (!arguments.page.empty()) write_page(robot, arguments, options, result, search);
   const int status = result.success() ? kPassed : kSimulationFailed;
   if (arguments.json) {
     print_json({.verb = "mpc", .exit_status = status, .result = online_json(robot, options, result)});
@@ -127,6 +165,42 @@ void add_world_options(CLI::App& verb, MpcArguments& arguments) {
           ->check(whole_number())
           ->type_name("N")};
   for (CLI::Option* const option : all) option->group(kWorld);
+}
+
+void add_page_options(CLI::App& verb, MpcArguments& arguments) {
+  CLI::Option* const view = verb.add_flag("--view", arguments.view,
+                                          "Run at the pace of the clock; a page in the browser takes commands and "
+                                          "kicks");
+  view->group(kPages);
+  verb.add_option("--port", arguments.port, "Port of 127.0.0.1 for --view; default: any free one")
+      ->type_name("N")
+      ->needs(view)
+      ->group(kPages);
+  verb.add_option("--page", arguments.page, "Write a page that replays the run")->type_name("FILE")->group(kPages);
+}
+
+void add_benchmark_options(CLI::App& verb, MpcArguments& arguments) {
+  MpcBenchmark& benchmark = arguments.benchmark;
+  CLI::Option* const file =
+      verb.add_option("--benchmark", benchmark.file,
+                      "Run the tables of docs/mpc.md, and keep all runs in this file; those in it are not run again")
+          ->type_name("FILE");
+  file->group(kBenchmark)->excludes("--command")->excludes("--view")->excludes("--page")->excludes("--duration");
+  const std::vector<CLI::Option*> all = {
+      verb.add_option("--rows", benchmark.rows, "Only these rows, with commas between; default: all")
+          ->delimiter(',')
+          ->type_name("NAMES"),
+      verb.add_option("--runs", benchmark.seeds, "Runs of each row at most; default: 1, 50 or 200")
+          ->check(CLI::Range(1, 1000000))
+          ->type_name("N"),
+      verb.add_option("--first-seed", benchmark.first_seed,
+                      fmt::format("Seed of the first run of each row; default {}", benchmark.first_seed))
+          ->check(whole_number())
+          ->type_name("N"),
+      verb.add_option("--jobs", benchmark.jobs, "Runs at a time; default: one per core")
+          ->check(CLI::Range(1, 1000))
+          ->type_name("N")};
+  for (CLI::Option* const option : all) option->needs(file)->group(kBenchmark);
 }
 
 }  // namespace
@@ -181,13 +255,18 @@ void add_mpc_command(CLI::App& app, int& status) {
       ->type_name("FILE")
       ->excludes(save);
   add_world_options(*verb, *arguments);
+  add_page_options(*verb, *arguments);
+  add_benchmark_options(*verb, *arguments);
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(
       *verb, {"prowl mpc hyq --duration 3 --command 0.3 0 0", "prowl mpc go2 --duration 4 --kicks 0.3 --seed 3"},
       "0 success; 8 the robot fell, touched the ground with other parts than its feet, or did not follow; others as "
       "prowl plan.");
-  verb->callback([arguments, &status] { status = run_mpc(*arguments); });
+  verb->callback([arguments, verb, &status] {
+    if (arguments->view && verb->get_option("--duration")->count() == 0) arguments->options.duration = kViewed;
+    status = run_mpc(*arguments);
+  });
 }
 
 }  // namespace prowl::cli

@@ -15,16 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestPage = 16u << 20;  ///< [bytes]
 
-std::string page_without_data() {
-  std::error_code ignored;
-  const fs::path page = share_folder() / "report.html";
-  if (!fs::exists(page, ignored)) {
-    throw FileError(
-        fmt::format("{}: missing; scripts/setup builds it from report/, with the Node.js in .venv", page.string()));
-  }
-  return read_text_file(page, kLongestPage).text;
-}
-
 std::optional<SourceText> read_if_there(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return std::nullopt;
@@ -33,8 +23,18 @@ std::optional<SourceText> read_if_there(const fs::path& file) {
 
 }  // namespace
 
+std::string page_without_data(const std::string& name) {
+  std::error_code ignored;
+  const fs::path page = share_folder() / (name + ".html");
+  if (!fs::exists(page, ignored)) {
+    throw FileError(
+        fmt::format("{}: missing; scripts/setup builds it from report/, with the Node.js in .venv", page.string()));
+  }
+  return read_text_file(page, kLongestPage).text;
+}
+
 ReportInputs report_inputs(const PlanRecord& plan, const fs::path& directory) {
-  ReportInputs inputs{.plan = plan, .directory = directory.string(), .template_html = page_without_data()};
+  ReportInputs inputs{.plan = plan, .directory = directory.string(), .template_html = page_without_data("report")};
   if (directory.empty()) return inputs;
   inputs.simulation = read_if_there(directory / "simulate.csv");
   inputs.simulation_json = read_if_there(directory / "simulate.json");

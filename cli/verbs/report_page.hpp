@@ -1,10 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "prowl/report_page/report_file.hpp"
 
 namespace prowl::cli {
+
+/// A page that the build made of report/, without its data: "report", "online". Throws FileError if it is missing.
+std::string page_without_data(const std::string& name);
 
 /// Inputs of the report: plan, page, and simulation and gains from `directory`; "": plan without a
 /// folder.

@@ -16,7 +16,9 @@
 #include <boost/beast/http.hpp>
 #include <chrono>
 #include <deque>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 #include "prowl/error.hpp"
 
@@ -27,6 +29,9 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using tcp = asio::ip::tcp;
 using Text = std::shared_ptr<const std::string>;
+using Request = http::request<http::string_body>;
+
+constexpr std::size_t kLongestWish = 4096;  ///< [bytes]
 
 /// State of the server's thread; other threads only post to `context_`.
 class ViewServer::Connections {
@@ -67,6 +72,10 @@ class ViewServer::Connections {
       news_.cancel();  // wakes all waiting connections
     });
   }
+  std::vector<std::string> take_wishes() {
+    const std::lock_guard lock(wishes_lock_);
+    return std::exchange(wishes_, {});
+  }
 
  private:
   asio::awaitable<void> accept() {
@@ -87,11 +96,16 @@ class ViewServer::Connections {
   asio::awaitable<void> serve(beast::tcp_stream stream) {
     constexpr std::chrono::seconds kPatience(30);
     beast::flat_buffer buffer;
-    http::request<http::empty_body> request;
+    http::request_parser<http::string_body> parser;
+    parser.body_limit(kLongestWish);
     stream.expires_after(kPatience);
-    co_await http::async_read(stream, buffer, request, asio::use_awaitable);
+    co_await http::async_read(stream, buffer, parser, asio::use_awaitable);
+    const Request& request = parser.get();
     if (request[http::field::host] != address_ && request[http::field::host] != other_name_) {
       co_await answer(stream, request, http::status::forbidden, "text/plain", "wrong host name\n");
+    } else if (request.method() == http::verb::post && request.target() == "/wishes") {
+      const http::status status = keep(request);
+      co_await answer(stream, request, status, "text/plain", status == http::status::ok ? "" : "JSON only\n");
     } else if (request.method() != http::verb::get) {
       co_await answer(stream, request, http::status::method_not_allowed, "text/plain", "GET only\n");
     } else if (request.target() == "/events") {
@@ -106,8 +120,17 @@ class ViewServer::Connections {
     stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
   }
 
-  static asio::awaitable<void> answer(beast::tcp_stream& stream, const http::request<http::empty_body>& request,
-                                      http::status status, const char* type, const std::string& text) {
+  /// Pages of other sites cannot send this type without asking, which is refused.
+  http::status keep(const Request& request) {
+    if (request[http::field::content_type] != "application/json") return http::status::unsupported_media_type;
+    constexpr std::size_t kMostWaiting = 1000;
+    const std::lock_guard lock(wishes_lock_);
+    if (wishes_.size() < kMostWaiting) wishes_.push_back(request.body());
+    return http::status::ok;
+  }
+
+  static asio::awaitable<void> answer(beast::tcp_stream& stream, const Request& request, http::status status,
+                                      const char* type, const std::string& text) {
     http::response<http::string_body> response(status, request.version(), text);
     response.set(http::field::content_type, type);
     response.set(http::field::cache_control, "no-store");
@@ -144,6 +167,8 @@ class ViewServer::Connections {
   Text page_ = std::make_shared<const std::string>();
   std::deque<Text> events_;
   std::size_t forgotten_ = 0, kept_ = 0;  ///< number of events, [bytes]
+  std::mutex wishes_lock_;
+  std::vector<std::string> wishes_;
   std::thread thread_;
 };
 
@@ -151,6 +176,7 @@ ViewServer::ViewServer(std::uint16_t port) : connections_(std::make_unique<Conne
 ViewServer::~ViewServer() = default;
 
 std::string ViewServer::url() const { return "http://" + connections_->address() + "/"; }
+std::vector<std::string> ViewServer::take_wishes() { return connections_->take_wishes(); }
 void ViewServer::show(std::string html) { connections_->show(std::move(html)); }
 void ViewServer::publish(const std::string& name, const std::string& json) {
   connections_->publish(fmt::format("event: {}\ndata: {}\n\n", name, json));

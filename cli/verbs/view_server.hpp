@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace prowl::cli {
 
@@ -21,6 +22,8 @@ class ViewServer {
   /// Sends an event of GET /events (server-sent events) to all current and later listeners; `json`:
   /// one line. The oldest of very many events are dropped.
   void publish(const std::string& name, const std::string& json);
+  /// Bodies of POST /wishes (JSON, at most 4 KiB, from the page itself) since the last call, in order.
+  std::vector<std::string> take_wishes();
 
  private:
   class Connections;

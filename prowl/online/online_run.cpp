@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <optional>
-#include <set>
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
+#include "prowl/online/online_measures.hpp"
 #include "prowl/simulation/actuators.hpp"
 #include "prowl/simulation/ground_error.hpp"
 #include "prowl/simulation/onboard.hpp"
@@ -23,16 +24,18 @@ using Eigen::VectorXd;
 
 /// A foot's contact switch closes at this share of its even load. Choice: above the noise of real switches.
 constexpr double kSwitchLoad = 0.05;
-/// A fall: the base lower than this share of its standing height, or tilted by this [rad].
-constexpr double kFallHeight = 2.0 / 3.0, kFallTilt = 0.7;
-constexpr double kMostLastVelocity = 0.1;  ///< [m/s], at success
-constexpr double kLastSecond = 1.0;        ///< [s]
-constexpr double kPathRate = 10.0;         ///< [Hz]
+constexpr std::size_t kMostNotes = 20;
+constexpr double kAfterPush = 0.5;      ///< plans so long after a push count as disturbed [s]
+constexpr double kBeyond = 1.0 + 1e-9;  ///< share of a limit that is beyond it
 
 double thread_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 void check(const OnlineOptions& options) {
@@ -47,10 +50,12 @@ void check(const OnlineOptions& options) {
        "0 to 0.05 s");
 }
 
-Surface real_ground(const OnlineOptions& options) {
-  const SimulationOptions& simulation = options.simulation;
-  const Surface level{.name = "ground", .friction = simulation.physics.friction.value_or(options.mpc.friction)};
-  return with_error({level}, Eigen::Vector3d::Zero(), simulation.ground).front();
+/// A posture on level ground, turned about the origin with the ground.
+VectorXd on_ground(VectorXd q, const Surface& ground) {
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ground.normal);
+  q.head<3>() = ground.point + turn * (q.head<3>() - Eigen::Vector3d(ground.point.x(), ground.point.y(), 0.0));
+  set_base_rotation(q, turn * base_rotation(q));
+  return q;
 }
 
 class Run {
@@ -61,39 +66,52 @@ class Run {
         period_(options.simulation.control_period()),
         substeps_(options.simulation.substeps()),
         standing_(standing_on_ground(robot)),
-        mpc_(robot, with_delay(options), standing_, VectorXd::Zero(robot.nv()), 0.0),
-        ground_(real_ground(options)),
+        ground_(ground_of(options)),
+        start_(on_ground(standing_, ground_)),
+        mpc_(robot, with_delay(options), start_, VectorXd::Zero(robot.nv()), 0.0),
         physics_(robot, {ground_}, options.simulation.stepped_physics()),
         sensors_(robot.nu(), options.simulation.noise, options.simulation.noise_scale, options.simulation.seed),
         stand_{std::vector<bool>(robot.contacts().size(), true),
                std::vector<Eigen::Vector3d>(robot.contacts().size(), Eigen::Vector3d::UnitZ())},
-        estimator_(robot, standing_, VectorXd::Zero(robot.nv()), stand_,
+        estimator_(robot, start_, VectorXd::Zero(robot.nv()), stand_,
                    estimator_noise(options.simulation.noise, options.simulation.noise_scale), kJointDensity),
-        touches_(mpc_.feet().size(), true) {
-    mpc_.torque(0.0, standing_, VectorXd::Zero(robot.nv()), tau_);
+        touches_(mpc_.feet().size(), true),
+        pushes_(options.simulation.pushes),
+        measures_(robot, mpc_.feet(), options.mpc.friction, options.duration, standing_.z()) {
+    mpc_.torque(0.0, start_, VectorXd::Zero(robot.nv()), tau_);
     actuators_.emplace(robot, period_ / substeps_, options.simulation.delay + options.simulation.unknown_delay,
                        options.simulation.bandwidth, tau_);
+    for (const TimedCommand& timed : options.commands) {
+      if (!timed.gait.empty()) pattern_of(timed.gait);  // throws before the run if the robot cannot do it
+    }
     pending_.assign(1 + static_cast<std::size_t>(std::lround(options.simulation.delay / period_)), tau_);
     follow(options.gait);
-    physics_.set_state(standing_, VectorXd::Zero(robot.nv()));
+    physics_.set_state(start_, VectorXd::Zero(robot.nv()));
   }
 
-  OnlineResult operator()(const std::function<void(double, double)>& on_time) {
-    const long ticks = std::lround(options_.duration / period_), each = std::lround(options_.period / period_);
-    const long path_each = std::max(1L, std::lround(1.0 / (kPathRate * period_)));
+  OnlineResult operator()(const OnlineWatcher& watch) {
+    const long ticks = std::lround(options_.duration / period_);
+    const long each = std::max(1L, std::lround(options_.period / period_));
+    const double rate = options_.simulation.record_rate;
+    const long record_each = rate > 0.0 ? std::max(1L, std::lround(1.0 / (rate * period_))) : 0;
     long tick = 0;
     for (; tick < ticks && result_.end == OnlineResult::End::finished; ++tick) {
       const double t = static_cast<double>(tick) * period_;
-      if (on_time) on_time(t, options_.duration);
+      if (record_each > 0 && tick % record_each == 0) result_.samples.push_back(sample(t));
+      if (watch && !ask(watch, t)) break;
       sense(t);
       obey(t);
-      if (tick % std::max(1L, each) == 0) plan(t);
+      if (tick % each == 0) plan(t);
       act(t);
       if (!advance(t)) result_.end = OnlineResult::End::diverged;
-      measure(t);
-      if (tick % path_each == 0) record(t);
+      if (!measures_.add_state(t, physics_, mpc_.followed(), ground_) && result_.end == OnlineResult::End::finished)
+        result_.end = OnlineResult::End::fell;
     }
-    finish(static_cast<double>(tick) * period_);
+    result_.end_time = static_cast<double>(tick) * period_;
+    result_.control_steps = tick;
+    result_.counters = mpc_.counters();
+    if (record_each > 0) result_.samples.push_back(sample(result_.end_time));
+    measures_.finish(result_);
     return std::move(result_);
   }
 
@@ -104,7 +122,10 @@ class Run {
     return mpc;
   }
 
-  void follow(const std::string& gait) { mpc_.follow(stepping_pattern(robot_, mpc_.feet(), standing_.z(), gait)); }
+  SteppingPattern pattern_of(const std::string& gait) const {
+    return stepping_pattern(robot_, mpc_.feet(), standing_.z(), gait);
+  }
+  void follow(const std::string& gait) { mpc_.follow(pattern_of(gait)); }
 
   void sense(double t) {
     for (std::size_t f = 0; f < touches_.size(); ++f) {
@@ -123,25 +144,64 @@ class Run {
     mpc_.feel_contacts(touches_, t);
   }
 
+  OnlineSample sample(double t) const { return OnlineMeasures::sample(t, physics_, mpc_.followed()); }
+
+  /// False if the watcher ends the run.
+  bool ask(const OnlineWatcher& watch, double t) {
+    const std::function<OnlineSample()> now = [&] { return sample(t); };
+    OnlineMoment moment{.time = t, .end = options_.duration, .sample = now};
+    watch(moment);
+    if (moment.impulse) pushes_.push_back({*moment.impulse, t});
+    if (moment.command) obey(t, *moment.command);
+    return !moment.stops;
+  }
+
   void obey(double t) {
-    while (next_command_ < options_.commands.size() && options_.commands[next_command_].time <= t + 1e-9) {
-      const TimedCommand& timed = options_.commands[next_command_++];
-      mpc_.command(timed.command);
-      if (!timed.gait.empty()) follow(timed.gait);
+    while (next_command_ < options_.commands.size() && options_.commands[next_command_].time <= t + 1e-9)
+      obey(t, options_.commands[next_command_++]);
+  }
+  void obey(double t, const TimedCommand& timed) {
+    const MpcCommand &asked = timed.command, kept = mpc_.command(asked);
+    const auto text = [](const MpcCommand& c) {
+      return fmt::format("{:.3g} m/s ahead, {:.3g} m/s left, {:.3g} rad/s, {:.3g} m up", c.forward, c.left, c.turn,
+                         c.height);
+    };
+    if (kept != asked)
+      note(fmt::format("command at {:.2f} s ({}) is out of range; followed: {}", t, text(asked), text(kept)));
+    if (timed.gait.empty()) return;
+    try {
+      follow(timed.gait);
+    } catch (const InputError& error) {  // of a watcher: those of the options were tried before
+      note(error.what());
     }
+  }
+  void note(const std::string& text) {
+    if (result_.notes.size() < kMostNotes) result_.notes.push_back(text);
   }
 
   void plan(double t) {
-    const double began = thread_seconds();
-    const bool has_plan = mpc_.update(estimator_.q(), estimator_.v(), t);
-    double seconds = thread_seconds() - began;
-    if (result_.times.size() < options_.replayed_times.size()) seconds = options_.replayed_times[result_.times.size()];
+    const double began = thread_seconds(), wall_began = wall_seconds();
+    const bool is_ready = mpc_.prepare(t);
+    const double prepared = thread_seconds();
+    const bool has_plan = is_ready && mpc_.plan(estimator_.q(), estimator_.v(), t);
+    const double ended = thread_seconds();
+    result_.walls.push_back(wall_seconds() - wall_began);
+    result_.feedbacks.push_back(ended - prepared);
+    const std::size_t index = result_.times.size();
+    const double seconds = index < options_.replayed_times.size() ? options_.replayed_times[index] : ended - began;
     result_.times.push_back(seconds);
     if (!has_plan) return;
     if (options_.late == LatePlans::drop && seconds > options_.budget) {
       mpc_.drop_latest();
       ++result_.dropped;
+      return;
     }
+    measures_.add_plan(mpc_.latest(), options_.period, is_pushed(t));
+  }
+
+  bool is_pushed(double t) const {
+    return std::ranges::any_of(
+        pushes_, [t](const Push& push) { return t >= push.time && t < push.time + push.duration + kAfterPush; });
   }
 
   void act(double t) {
@@ -160,69 +220,19 @@ class Run {
 
   bool advance(double t) {
     const double step = period_ / substeps_;
+    double share = 0.0;
     for (int i = 0; i < substeps_; ++i) {
       q_before_ = physics_.q();
       v_before_ = physics_.v();
       const VectorXd& torque = actuators_->step(q_before_, v_before_);
-      result_.largest_torque_share = std::max(result_.largest_torque_share, actuators_->largest_share());
-      if (!physics_.step(torque, push_at(options_.simulation.pushes, t + i * step))) return false;
-      if (!physics_.other_touch().empty()) touched_.insert(physics_.other_touch());
+      share = std::max(share, actuators_->largest_share());
+      if (!physics_.step(torque, push_at(pushes_, t + i * step))) return false;
+      if (!physics_.other_touch().empty()) measures_.add_touch(physics_.other_touch());
       sensors_.integrate(step, q_before_, v_before_, physics_.q(), physics_.v());
     }
+    result_.largest_torque_share = std::max(result_.largest_torque_share, share);
+    if (share > kBeyond) ++result_.steps_beyond_limits;
     return true;
-  }
-
-  void measure(double t) {
-    const VectorXd &q = physics_.q(), &v = physics_.v();
-    const Eigen::Matrix3d rotation = base_rotation(q);
-    const Eigen::Vector3d rpy = rpy_from_rotation(rotation), velocity = rotation * v.head<3>();
-    const MpcCommand& command = mpc_.followed();
-    const double c = std::cos(rpy.z()), s = std::sin(rpy.z());
-    const Eigen::Vector2d off(c * velocity.x() + s * velocity.y() - command.forward,
-                              c * velocity.y() - s * velocity.x() - command.left);
-    velocity_squares_ += off.squaredNorm();
-    turn_squares_ += std::pow((rotation * v.segment<3>(3)).z() - command.turn, 2);
-    ++measured_;
-    if (t >= options_.duration - kLastSecond) {
-      last_off_ += off;
-      ++last_count_;
-    }
-    const double above = ground_.normal.dot(q.head<3>() - ground_.point);
-    const double tilt = std::acos(std::clamp(rotation(2, 2), -1.0, 1.0));
-    if (result_.end == OnlineResult::End::finished && (above < kFallHeight * standing_.z() || tilt > kFallTilt))
-      result_.end = OnlineResult::End::fell;
-  }
-
-  void record(double t) {
-    const Eigen::Matrix3d rotation = base_rotation(physics_.q());
-    Eigen::Matrix<double, 10, 1> row;
-    row << t, physics_.q().head<3>(), rpy_from_rotation(rotation), rotation * physics_.v().head<3>();
-    result_.path.push_back(row);
-  }
-
-  void finish(double end) {
-    result_.end_time = end;
-    const auto mean = [&](double squares) {
-      return measured_ > 0 ? std::sqrt(squares / static_cast<double>(measured_)) : 0.0;
-    };
-    result_.velocity_error = mean(velocity_squares_);
-    result_.turn_error = mean(turn_squares_);
-    if (last_count_ > 0) result_.last_velocity = (last_off_ / static_cast<double>(last_count_)).norm();
-    result_.counters = mpc_.counters();
-    result_.touches.assign(touched_.begin(), touched_.end());
-    if (result_.end == OnlineResult::End::fell) {
-      result_.failures = {fmt::format("fell at {:.2f} s", end)};
-      return;
-    }
-    if (result_.end == OnlineResult::End::diverged) {
-      result_.failures = {fmt::format("the simulation diverged at {:.2f} s", end)};
-      return;
-    }
-    for (const std::string& touch : result_.touches) result_.failures.push_back("touched: " + touch);
-    if (result_.last_velocity > kMostLastVelocity)
-      result_.failures.push_back(
-          fmt::format("mean velocity of the last second {:.2f} m/s off the command; {:g} allowed",
-                      result_.last_velocity, kMostLastVelocity));
   }
 
   const RobotModel& robot_;
@@ -230,8 +240,9 @@ class Run {
   double period_;
   int substeps_;
   VectorXd standing_;
-  MpcController mpc_;
   Surface ground_;
+  VectorXd start_;
+  MpcController mpc_;
   Physics physics_;
   Sensors sensors_;
   Stand stand_;
@@ -241,19 +252,22 @@ class Run {
   std::vector<VectorXd> pending_;  ///< torques that do not act yet, oldest first; the first acts until the next reading
   std::size_t next_command_ = 0;
   VectorXd q_, v_, tau_, command_, q_before_, v_before_;
-  double velocity_squares_ = 0.0, turn_squares_ = 0.0;
-  Eigen::Vector2d last_off_ = Eigen::Vector2d::Zero();
-  long measured_ = 0, last_count_ = 0;
-  std::set<std::string> touched_;
+  std::vector<Push> pushes_;  ///< of the options, and of the watcher
+  OnlineMeasures measures_;
   OnlineResult result_;
 };
 
 }  // namespace
 
-OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options,
-                        const std::function<void(double, double)>& on_time) {
+Surface ground_of(const OnlineOptions& options) {
+  const SimulationOptions& simulation = options.simulation;
+  const Surface level{.name = "ground", .friction = simulation.physics.friction.value_or(options.mpc.friction)};
+  return with_error({level}, Eigen::Vector3d::Zero(), simulation.ground).front();
+}
+
+OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options, const OnlineWatcher& watch) {
   check(options);
-  return Run(robot, options)(on_time);
+  return Run(robot, options)(watch);
 }
 
 }  // namespace prowl

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "prowl/mpc/mpc_controller.hpp"
-#include "prowl/simulation/simulation.hpp"
+#include "prowl/online/online_result.hpp"
 
 namespace prowl {
 
@@ -33,34 +33,26 @@ struct OnlineOptions {
   /// Computing times of plans [s], in order, in place of those measured: repeats a run with LatePlans::drop.
   std::vector<double> replayed_times = {};
   /// As in a simulation of a plan; `physics.friction` is that of the ground, `ground.tilt` an unknown slope, `pushes`
-  /// the kicks. Not used: open_loop, record_rate, start.
+  /// the kicks. Not used: open_loop, start.
   SimulationOptions simulation;
 };
 
-/// What came of a run. A fall ends it.
-struct OnlineResult {
-  using End = SimulationResult::End;
-  End end = End::finished;
-  double end_time = 0.0;              ///< [s]
-  std::vector<std::string> failures;  ///< in words; empty: success
-  bool success() const { return failures.empty(); }
-
-  double velocity_error = 0.0;        ///< RMS of the base's horizontal velocity from the command [m/s]
-  double turn_error = 0.0;            ///< RMS of its turn rate from the command [rad/s]
-  double last_velocity = 0.0;         ///< distance of the mean velocity of the last second from the command [m/s]
-  double largest_torque_share = 0.0;  ///< of the limit [-]
-  std::vector<std::string> touches;   ///< of anything but feet on the ground, each once
-  MpcCounters counters;
-  std::vector<double> times;  ///< computing time of each plan, CPU time of the thread [s]
-  long dropped = 0;           ///< plans that were late and lost
-  /// State of the base, ten times a second: time, position (3), roll pitch yaw (3), velocity in the world (3).
-  std::vector<Eigen::Matrix<double, 10, 1>> path;
+/// One control step of a run, for a watcher, and what the watcher asks for.
+struct OnlineMoment {
+  double time = 0.0, end = 0.0;                 ///< [s]
+  const std::function<OnlineSample()>& sample;  ///< of the robot at this time
+  std::optional<TimedCommand> command = {};     ///< from now on; its time is not used
+  std::optional<Eigen::Vector3d> impulse = {};  ///< push of the base from now on for 0.1 s, world frame [N s]
+  bool stops = false;                           ///< ends the run here
 };
+using OnlineWatcher = std::function<void(OnlineMoment&)>;
+
+/// The ground of a run as it is: its friction, height and slope.
+Surface ground_of(const OnlineOptions& options);
 
 /// Runs a robot on flat ground under an MpcController in MuJoCo: sensors with noise, contact switches in the feet,
-/// delay, state estimator. It begins standing. `on_time(t, end)` is called at every control step; it may be empty.
+/// delay, state estimator. It begins standing. `watch` is called at every control step; it may be empty.
 /// Throws InputError for a gait that the robot cannot do, and for options out of range.
-OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options,
-                        const std::function<void(double t, double end)>& on_time = {});
+OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options, const OnlineWatcher& watch = {});
 
 }  // namespace prowl

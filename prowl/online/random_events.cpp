@@ -23,6 +23,12 @@ void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options) {
   }
 }
 
+void add_one_kick(const RobotModel& robot, double speed, OnlineOptions& options) {
+  std::mt19937_64 random = stream_of(options, kKickStream);
+  const Eigen::Vector3d impulse = speed * robot.mass() * draw_direction(random);
+  options.simulation.pushes.push_back({impulse, kKickEvery * draw_between(1.0, 2.0, random)});
+}
+
 void add_random_commands(double most, OnlineOptions& options) {
   std::mt19937_64 random = stream_of(options, kCommandStream);
   for (double t = kFirstCommand; t < options.duration - kAfterCommand;

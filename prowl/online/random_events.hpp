@@ -8,6 +8,9 @@ namespace prowl {
 /// the mass of the robot times `speed` [m/s]. The seed is that of the simulation.
 void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options);
 
+/// Adds one such kick at a random time from 2 to 4 s.
+void add_one_kick(const RobotModel& robot, double speed, OnlineOptions& options);
+
 /// Adds a random command every 1 to 4 s from 1 s on, until 3 s before the end: velocities within `most` [m/s], turn
 /// rates within `most` [rad/s], evenly.
 void add_random_commands(double most, OnlineOptions& options);

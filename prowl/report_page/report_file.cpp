@@ -18,10 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kPlaceholder = "PROWL_REPORT_DATA";
-// A report file may load nothing; a served page may connect to its server.
-constexpr const char* kPolicy = "default-src 'none';";
-constexpr const char* kServedPolicy = "default-src 'none'; connect-src 'self';";
 constexpr double kGainStep = 0.02;  ///< [s]
 
 /// Phases with their planned times and contacts.
@@ -81,27 +77,6 @@ Json parse_simulation(const ReportInputs& inputs) {
   return json;
 }
 
-/// `page` with `data` in place of the placeholder. In JSON '<' occurs only inside strings; written
-/// as \u003c it cannot close the script element or open another.
-std::string filled(const std::string& page, const std::string& data) {
-  const std::size_t index = page.find(kPlaceholder);
-  if (index == std::string::npos || page.find(kPlaceholder, index + 1) != std::string::npos) {
-    throw FileError(fmt::format("the template of the report is invalid: need {} in it exactly once", kPlaceholder));
-  }
-  std::string safe;
-  safe.reserve(data.size());
-  for (const char c : data) c == '<' ? safe += "\\u003c" : safe += c;
-  return page.substr(0, index) + safe + page.substr(index + std::string_view(kPlaceholder).size());
-}
-
-/// The page with a content security policy that allows connections to its server.
-std::string served(std::string page) {
-  const std::size_t index = page.find(kPolicy);
-  if (index == std::string::npos)
-    throw FileError(fmt::format("the template of the report is invalid: need {} in it", kPolicy));
-  return page.replace(index, std::string_view(kPolicy).size(), kServedPolicy);
-}
-
 /// Of a robust plan; none without gains.
 std::optional<Tube> tube_of(const PlanRecord& record) {
   if (!record.robustness) return std::nullopt;
@@ -135,7 +110,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
                {"plan_json", plan_to_json(record)},
                {"command", plan_command(record)},
                {"simulated_friction", nullptr},
-               {"scene", report_scene(problem, search, warnings)},
+               {"scene", report_scene(robot, problem.surfaces, search, warnings)},
                {"plan", report_motion_json(robot, plan)},
                {"simulation", nullptr},
                {"simulation_json", parse_simulation(inputs)},
@@ -174,8 +149,8 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search, cons
   if (other != nullptr) data["other"] = other_data(*other, data, search, report.warnings);
   data["warnings"] = report.warnings;
   if (inputs.state != PageState::file) data["live"] = {{"solved", inputs.state == PageState::solved}};
-  report.html = filled(inputs.state == PageState::file ? inputs.template_html : served(inputs.template_html),
-                       data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  report.html = filled_page(inputs.template_html, data.dump(-1, ' ', false, Json::error_handler_t::replace),
+                            inputs.state != PageState::file);
   return report;
 }
 

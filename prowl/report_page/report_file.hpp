@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/report_page/page_template.hpp"
 #include "prowl/tracker/tracking_plan.hpp"
 
 namespace prowl {
-
-/// `file`: a standalone page. The other two are served by prowl view and listen to its events.
-enum class PageState { file, solving, solved };
 
 /// Inputs of a report.
 struct ReportInputs {

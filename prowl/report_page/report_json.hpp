@@ -13,8 +13,8 @@ namespace prowl {
 
 /// "meshes", "visuals", "bodies", "contacts", "surfaces". A mesh that cannot be read is replaced by a box of its body's
 /// inertia, with a line in `warnings`.
-nlohmann::ordered_json report_scene(const MotionProblem& problem, const PackageSearch& search,
-                                    std::vector<std::string>& warnings);
+nlohmann::ordered_json report_scene(const RobotModel& robot, const std::vector<Surface>& surfaces,
+                                    const PackageSearch& search, std::vector<std::string>& warnings);
 
 /// "time", "placements" (of every body at every time), "forces" (of every contact, world frame [N]) and "mass_centre"
 /// (of the whole robot, world frame [m]).

@@ -55,9 +55,9 @@ Eigen::Vector3d mass_centre(const BodyTree& tree, const std::vector<Eigen::Isome
   return moment / mass;
 }
 
-Json surfaces_json(const MotionProblem& problem) {
+Json surfaces_json(const std::vector<Surface>& all) {
   Json surfaces = Json::array();
-  for (const Surface& surface : problem.surfaces) {
+  for (const Surface& surface : all) {
     Json patch = Json::array();
     for (const Eigen::Vector2d& corner : surface.patch) patch.push_back(to_json(surface.at(corner)));
     surfaces.push_back({{"name", surface.name},
@@ -71,8 +71,8 @@ Json surfaces_json(const MotionProblem& problem) {
 
 }  // namespace
 
-Json report_scene(const MotionProblem& problem, const PackageSearch& search, std::vector<std::string>& warnings) {
-  const RobotModel& robot = problem.robot;
+Json report_scene(const RobotModel& robot, const std::vector<Surface>& surfaces, const PackageSearch& search,
+                  std::vector<std::string>& warnings) {
   const BodyTree tree = body_tree(robot);
   const RobotLook look = robot_look(robot, search, warnings);
   std::map<std::string, Json> indices;
@@ -100,7 +100,7 @@ Json report_scene(const MotionProblem& problem, const PackageSearch& search, std
                                 {"point", to_json(tree.points[c].position)},
                                 {"radius", contact.radius}});
   }
-  json["surfaces"] = surfaces_json(problem);
+  json["surfaces"] = surfaces_json(surfaces);
   return json;
 }
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <mutex>
 #include <optional>
 #include <random>
-#include <thread>
 
+#include "prowl/simulation/in_parallel.hpp"
 #include "prowl/simulation/perturbations.hpp"
 
 namespace prowl {
@@ -53,28 +52,20 @@ std::vector<SweepCase> run_cases(const MotionProblem& problem, const Tracker& tr
                                  const std::vector<SimulationOptions>& options, const SweepProgress& on_done,
                                  const std::atomic<bool>* interrupt) {
   std::vector<std::optional<SweepCase>> cases(options.size());
-  std::atomic<std::size_t> next = 0;
   std::mutex report;
   int done = 0;
   const auto tell = [&] {
     if (on_done) on_done(done, static_cast<int>(options.size()));
   };
   tell();
-  const auto work = [&] {
-    while (!(interrupt && *interrupt)) {  // checked before taking a case: finished cases have no gaps
-      const std::size_t i = next++;
-      if (i >= options.size()) return;
-      cases[i] = SweepCase{options[i], simulate(problem, tracker, criteria, options[i])};
-      const std::lock_guard lock(report);
-      ++done;
-      tell();
-    }
+  const auto work = [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    cases[at] = SweepCase{options[at], simulate(problem, tracker, criteria, options[at])};
+    const std::lock_guard lock(report);
+    ++done;
+    tell();
   };
-  std::vector<std::future<void>> workers;
-  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i) {
-    workers.push_back(std::async(std::launch::async, work));
-  }
-  for (std::future<void>& worker : workers) worker.get();
+  in_parallel(static_cast<int>(options.size()), 0, work, interrupt);
   std::vector<SweepCase> finished;
   for (std::optional<SweepCase>& one : cases) {
     if (!one) break;

@@ -179,6 +179,9 @@ export interface ReportData {
   other: OtherPlan | null; // second plan, to compare
 }
 
+/// What the view shows.
+export type ViewData = Pick<ReportData, "scene" | "phases" | "plan" | "simulation" | "other" | "size_m" | "weight_N">;
+
 /// A second plan in the same page. Its scene is null if equal to the first.
 export type OtherPlan = Pick<
   ReportData,

@@ -16,11 +16,14 @@ import {
 } from "three";
 import type { Surface } from "./data";
 
+const kGrid = 0.25; // [m]
+
 /// Planes as a grid around the motion, patches as polygons; invisible from behind or below.
 export class Ground {
   readonly group = new Group();
   private readonly faces: MeshStandardMaterial[] = [];
   private readonly lines: LineBasicMaterial[] = [];
+  private readonly planes: Group[] = [];
 
   /// `centre` and `reach` [m]: visible part of a plane.
   constructor(surfaces: Surface[], centre: Vector3, reach: number) {
@@ -28,6 +31,14 @@ export class Ground {
       this.group.add(surface.patch.length > 0 ? this.patch(surface) : this.plane(surface, centre, reach));
   }
 
+  /// Moves planes under a point, by whole grid steps.
+  follow(point: Vector3): void {
+    for (const plane of this.planes) {
+      const along = point.clone().sub(plane.position).applyQuaternion(plane.quaternion.clone().invert());
+      along.set(Math.round(along.x / kGrid) * kGrid, Math.round(along.y / kGrid) * kGrid, 0);
+      plane.position.add(along.applyQuaternion(plane.quaternion));
+    }
+  }
   setColours(face: Color, line: Color): void {
     for (const material of this.faces) material.color.copy(face);
     for (const material of this.lines) material.color.copy(line);
@@ -58,7 +69,7 @@ export class Ground {
     const plane = new Group();
     const face = new Mesh(new PlaneGeometry(size, size), this.face(1));
     face.receiveShadow = true;
-    const step = 0.25;
+    const step = kGrid;
     const points: Vector3[] = [];
     for (let x = -size / 2; x <= size / 2 + 1e-9; x += step) {
       points.push(
@@ -72,6 +83,7 @@ export class Ground {
     plane.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), normal));
     // Below the robot, on whole grid steps: on level ground the lines are at round coordinates.
     const rounded = new Vector3(Math.round(centre.x / step) * step, Math.round(centre.y / step) * step, centre.z);
+    this.planes.push(plane);
     plane.position.copy(rounded.addScaledVector(normal, -rounded.clone().sub(point).dot(normal)));
     return plane;
   }

@@ -1,5 +1,5 @@
 import { type Clock, kFrame } from "./clock";
-import type { ReportData } from "./data";
+import type { ViewData } from "./data";
 import type { Timeline } from "./timeline";
 import type { Layers, View } from "./view";
 
@@ -33,7 +33,7 @@ export function keyboard(
   clock: Clock,
   timeline: Timeline,
   view: View | null,
-  data: ReportData,
+  data: Pick<ViewData, "phases">,
   help: () => void,
 ): void {
   const starts = () => [...data.phases.map((phase) => phase.start), data.phases[data.phases.length - 1]?.end ?? 0];

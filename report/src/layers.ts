@@ -1,9 +1,9 @@
-import type { ReportData } from "./data";
+import type { ViewData } from "./data";
 import { el } from "./dom";
 import type { Layers, View } from "./view";
 
 /// Switches for the layers of the view.
-export function layerSwitches(view: View, data: ReportData): HTMLElement {
+export function layerSwitches(view: View, data: ViewData): HTMLElement {
   const names: [keyof Layers, string, boolean][] = [
     ["forces", "forces", true],
     ["cones", "cones", true],

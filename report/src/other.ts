@@ -1,5 +1,5 @@
 import type { Material } from "three";
-import type { OtherPlan, Phase, ReportData, Scene } from "./data";
+import type { OtherPlan, Phase, Scene, ViewData } from "./data";
 import { Forces } from "./forces";
 import type { Layers } from "./view";
 import { Motion } from "./motion";
@@ -14,7 +14,7 @@ export class OtherRobot {
   readonly forces: Forces; // on the scale of the first plan's
   private readonly phases: Phase[];
 
-  constructor(other: OtherPlan, data: ReportData, shapes: Shapes, material: Material) {
+  constructor(other: OtherPlan, data: ViewData, shapes: Shapes, material: Material) {
     this.scene = other.scene ?? data.scene;
     this.motion = new Motion(other.plan, this.scene.bodies.length, this.scene.contacts.length);
     this.robot = new Robot(this.scene, other.scene ? new Shapes(other.scene) : shapes, material);

@@ -1,5 +1,5 @@
 import { type Clock, kFrame } from "./clock";
-import type { ReportData } from "./data";
+import type { ViewData } from "./data";
 import { el } from "./dom";
 import { inTheAir, parts, phaseAt } from "./phases";
 
@@ -33,7 +33,7 @@ export class Timeline {
   private shown: boolean | null = null;
 
   constructor(
-    private readonly data: ReportData,
+    private readonly data: ViewData,
     private readonly clock: Clock,
   ) {
     this.slider = el("input", {

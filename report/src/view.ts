@@ -17,7 +17,7 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Balance, type Support } from "./balance";
 import type { Clock } from "./clock";
-import type { ReportData, Surface } from "./data";
+import type { Surface, ViewData } from "./data";
 import { colour } from "./dom";
 import { type DrawnForce, Forces, Trails } from "./forces";
 import { Ground } from "./ground";
@@ -72,7 +72,7 @@ export class View {
   /// Throws if the browser has no WebGL.
   constructor(
     private readonly container: HTMLElement,
-    private readonly data: ReportData,
+    private readonly data: ViewData,
     private readonly clock: Clock,
   ) {
     const { bodies, contacts } = data.scene;
@@ -331,6 +331,7 @@ export class View {
     this.robot.show(this.plan, t);
     const before = this.base.clone();
     this.base.copy(this.robot.bodies[0].position);
+    if (this.layers.follow) this.ground.follow(this.base);
     if (this.layers.follow && !this.sight.step(this.base) && before.lengthSq() > 0)
       this.sight.move(this.base.clone().sub(before));
     this.sun.target.position.copy(this.base);

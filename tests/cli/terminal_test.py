@@ -156,7 +156,7 @@ class TerminalTest(unittest.TestCase):
             "compare": ["Options", "Compared", "Solver", "Output"],
             "simulate": ["Options", "MuJoCo", "Rollout", "Output"],
             "sweep": ["Options", "Perturbations", "Output"],
-            "mpc": ["Options", "World", "Output"],
+            "mpc": ["Options", "World", "Pages", "Benchmark", "Output"],
             "completion": ["Options"],
         }
         terminal = Terminal(80, NO_COLOR="1")

@@ -122,7 +122,14 @@ ALLOWED = {
         "prowl/transcription",
         "prowl/solvers",
     ],
-    "prowl/online": ["prowl/files", "prowl/model", "prowl/simulation", "prowl/mpc", "prowl/task_file"],
+    "prowl/online": [
+        "prowl/files",
+        "prowl/model",
+        "prowl/certificate",
+        "prowl/simulation",
+        "prowl/mpc",
+        "prowl/task_file",
+    ],
     # Files in, plans out.
     "prowl/task_file": [
         "prowl/text",
@@ -166,6 +173,8 @@ ALLOWED = {
     "prowl/report_page": [
         "prowl/files",
         "prowl/model",
+        "prowl/mpc",
+        "prowl/online",
         "prowl/trajectory",
         "prowl/solvers",
         "prowl/tracker",
@@ -196,6 +205,7 @@ ALLOWED = {
         "prowl/certificate",
     ],
     "screen": [
+        "prowl/simulation",
         "prowl/online",
         "prowl/files",
         "prowl/model",
@@ -258,6 +268,8 @@ ALLOWED = {
         "prowl/dynamics",
         "prowl/trajectory",
         "prowl/nlp",
+        "prowl/mpc",
+        "prowl/online",
         "prowl/transcription",
         "prowl/solvers",
         "prowl/certificate",

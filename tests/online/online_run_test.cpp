@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "prowl/error.hpp"
 #include "tests/support/robots.hpp"
 
@@ -11,6 +13,7 @@ namespace {
 OnlineOptions commanded(double forward) {
   OnlineOptions options;
   options.duration = 5.0;
+  options.simulation.record_rate = 10.0;
   TimedCommand timed;
   timed.time = 0.5;
   timed.command.forward = forward;
@@ -23,9 +26,13 @@ TEST(OnlineRun, TrotsAsCommanded) {
   const OnlineResult result = run_online(robot, commanded(0.3));
   EXPECT_TRUE(result.success()) << result.failures.front();
   EXPECT_LT(result.velocity_error, 0.1);
-  EXPECT_GT(result.path.back()(1), 1.0) << "distance ahead [m]";
+  EXPECT_GT(result.samples.back().q.x(), 1.0) << "distance ahead [m]";
   EXPECT_EQ(result.counters.damped, 0);
   EXPECT_LE(result.largest_torque_share, 1.0 + 1e-12);
+  EXPECT_EQ(result.steps_beyond_limits, 0);
+  EXPECT_GT(result.undisturbed.plans, 450);
+  EXPECT_LE(result.undisturbed.share(), 0.02) << "forces outside their cones, by the oracle of the certificate";
+  EXPECT_EQ(result.kicked.plans, 0);
 }
 
 TEST(OnlineRun, RepeatsBitForBit) {
@@ -34,10 +41,10 @@ TEST(OnlineRun, RepeatsBitForBit) {
   options.duration = 1.5;
   options.simulation.pushes = {{{10.0, 10.0, 0.0}, 0.8, 0.1}};
   const OnlineResult once = run_online(robot, options), again = run_online(robot, options);
-  ASSERT_EQ(once.path.size(), again.path.size());
-  for (std::size_t i = 0; i < once.path.size(); ++i) EXPECT_EQ(once.path[i], again.path[i]) << i;
+  ASSERT_EQ(once.samples.size(), again.samples.size());
+  for (std::size_t i = 0; i < once.samples.size(); ++i) EXPECT_EQ(once.samples[i].q, again.samples[i].q) << i;
   options.simulation.seed = 2;
-  EXPECT_NE(run_online(robot, options).path.back(), once.path.back()) << "noise does nothing";
+  EXPECT_NE(run_online(robot, options).samples.back().q, once.samples.back().q) << "noise does nothing";
 }
 
 TEST(OnlineRun, LatePlansAreLostAndTheirTimesRepeatTheRun) {
@@ -49,7 +56,7 @@ TEST(OnlineRun, LatePlansAreLostAndTheirTimesRepeatTheRun) {
   for (std::size_t i = 20; i < 150; i += 7) options.replayed_times[i] = 1.0;
   const OnlineResult once = run_online(robot, options), again = run_online(robot, options);
   EXPECT_EQ(once.dropped, 19);
-  EXPECT_EQ(once.path.back(), again.path.back());
+  EXPECT_EQ(once.samples.back().q, again.samples.back().q);
   EXPECT_EQ(once.end, OnlineResult::End::finished) << "the plan before goes on";
 }
 
@@ -61,6 +68,39 @@ TEST(OnlineRun, TellsAFall) {
   EXPECT_EQ(result.end, OnlineResult::End::fell);
   EXPECT_LT(result.end_time, 3.0);
   EXPECT_FALSE(result.success());
+}
+
+TEST(OnlineRun, AWatcherCommandsKicksAndStops) {
+  const RobotModel robot(test::hyq_description());
+  OnlineOptions options = commanded(0.0);
+  double last = -1.0;
+  const OnlineResult result = run_online(robot, options, [&](OnlineMoment& moment) {
+    const OnlineSample now = moment.sample();
+    EXPECT_EQ(now.time, moment.time);
+    EXPECT_GT(moment.time, last);
+    last = moment.time;
+    const auto is_at = [&](double t) { return std::abs(moment.time - t) < 1e-9; };
+    if (is_at(0.5)) moment.command = {.command = {.forward = 9.0}};
+    if (is_at(0.6)) moment.command = {.command = {.forward = 0.3}, .gait = "canter"};
+    if (is_at(0.7)) moment.impulse = Eigen::Vector3d(0.0, 20.0, 0.0);
+    moment.stops = is_at(2.0);
+  });
+  EXPECT_EQ(result.end, OnlineResult::End::finished);
+  EXPECT_NEAR(result.end_time, 2.0, 1e-9);
+  EXPECT_NEAR(result.samples.back().commanded.x(), 0.3, 1e-9);
+  EXPECT_GT(result.kicked.plans, 50);
+  ASSERT_EQ(result.notes.size(), 2);
+  EXPECT_NE(result.notes[0].find("out of range"), std::string::npos) << result.notes[0];
+  EXPECT_NE(result.notes[1].find("canter"), std::string::npos) << result.notes[1];
+}
+
+TEST(OnlineRun, RefusesGaitsOfItsCommandsBeforeItBegins) {
+  const RobotModel robot(test::hyq_description());
+  OnlineOptions options = commanded(0.0);
+  options.commands.push_back({.time = 4.0, .command = {}, .gait = "canter"});
+  int steps = 0;
+  EXPECT_THROW(run_online(robot, options, [&](OnlineMoment&) { ++steps; }), InputError);
+  EXPECT_EQ(steps, 0);
 }
 
 TEST(OnlineRun, RefusesOptionsOutOfRange) {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "prowl/mpc/mpc_controller.hpp"
+#include "prowl/simulation/simulation.hpp"
+
+namespace prowl {
+
+/// The simulated robot at one time of a run.
+struct OnlineSample {
+  double time = 0.0;                                    ///< [s]
+  Eigen::VectorXd q, v;                                 ///< true state
+  Eigen::VectorXd force;                                ///< of each contact on the robot, 3 each, world frame [N]
+  Eigen::Vector3d moves = Eigen::Vector3d::Zero();      ///< base ahead and to the left [m/s], turn rate [rad/s]
+  Eigen::Vector3d commanded = Eigen::Vector3d::Zero();  ///< the same, as the controller follows it
+};
+
+/// Plans whose forces left their friction cones in the part that was executed, by more than 1 % of the robot's weight.
+struct ForceCount {
+  long plans = 0, outside = 0;
+  double share() const { return plans > 0 ? static_cast<double>(outside) / static_cast<double>(plans) : 0.0; }
+};
+
+/// What came of a run. A fall ends it.
+struct OnlineResult {
+  using End = SimulationResult::End;
+  End end = End::finished;
+  double end_time = 0.0;              ///< [s]
+  std::vector<std::string> failures;  ///< in words; empty: success
+  std::vector<std::string> notes;     ///< commands that were out of range, in words
+  bool success() const { return failures.empty(); }
+
+  double velocity_error = 0.0;        ///< RMS of the base's horizontal velocity from the command [m/s]
+  double turn_error = 0.0;            ///< RMS of its turn rate from the command [rad/s]
+  double last_velocity = 0.0;         ///< distance of the mean velocity of the last second from the command [m/s]
+  double largest_torque_share = 0.0;  ///< of the limit [-]; infinite if a joint is faster than its limits allow
+  long control_steps = 0;
+  long steps_beyond_limits = 0;      ///< of these: torques beyond a limit in the true state
+  ForceCount undisturbed, kicked;    ///< plans made outside, and within 0.5 s of a push
+  std::vector<std::string> touches;  ///< of anything but feet on the ground, each once
+  MpcCounters counters;
+  std::vector<double> times;      ///< computing time of each plan, CPU time of the thread [s]
+  std::vector<double> feedbacks;  ///< part of these after the state was measured [s]
+  std::vector<double> walls;      ///< the same times by the clock on the wall [s]
+  long dropped = 0;               ///< plans that were late and lost
+  std::vector<OnlineSample> samples;
+};
+
+}  // namespace prowl
