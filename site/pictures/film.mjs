@@ -1,6 +1,7 @@
 // Films the 3D view of reports in a headless browser, as PNG files in a folder. Standard input is JSON:
 //     [{ "report": ..., "folder": ..., "width": ..., "height": ..., "layers": {"cones": false}, "share": 0.5 }]
-// One picture at a share of the plan's duration, or with "rate" so many a second of all of it.
+// One picture at a share of the motion's duration, or with "rate" so many a second, of all of it or from "start" to
+// "end" [s].
 import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -21,21 +22,24 @@ const STYLE = `.view { position: fixed !important; inset: 0; width: 100vw !impor
 
 const shots = JSON.parse(readFileSync(0, "utf8"));
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
-for (const { report, folder, width, height, layers, share, rate } of shots) {
+for (const { report, folder, width, height, layers, share, rate, start, end } of shots) {
   mkdirSync(folder, { recursive: true });
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: "light", bypassCSP: true });
   page.setDefaultTimeout(180_000); // software draws the picture, perhaps beside other work
   await page.goto(pathToFileURL(report).href);
-  await page.waitForFunction(() => window.prowl?.view);
+  await page.waitForFunction(() => (window.prowl ??= window.prowlOnline)?.view);
   await page.addStyleTag({ content: STYLE });
   await page.waitForFunction((size) => document.querySelector(".view canvas").clientWidth === size, width);
-  const end = await page.evaluate(() => window.prowl.data.plan.time.at(-1));
-  const times = rate ? Array.from({ length: Math.floor(end * rate) + 1 }, (_, k) => k / rate) : [share * end];
+  const last = end ?? (await page.evaluate(() => window.prowl.data.plan.time.at(-1)));
+  const first = start ?? 0;
+  const times = rate
+    ? Array.from({ length: Math.floor((last - first) * rate) + 1 }, (_, k) => first + k / rate)
+    : [share * last];
   await page.evaluate(
-    ([first, chosen]) => {
+    ([from, chosen]) => {
       const { clock, view } = window.prowl;
       for (const [name, on] of Object.entries(chosen)) view.setLayer(name, on);
-      clock.seek(first);
+      clock.seek(from);
       view.resetCamera();
     },
     [times[0], layers],
