@@ -10,6 +10,15 @@ namespace prowl {
 
 using Eigen::VectorXd;
 
+namespace {
+
+/// Feedback of a joint at most, as a share of its torque limit. Gains are those of the active limits: far from the
+/// plan, with other active limits, they may be ten times too large, and throw a robot over in 10 ms. The next plan
+/// answers.
+constexpr double kMostFeedback = 0.2;
+
+}  // namespace
+
 MpcPlan::MpcPlan(const RobotModel& robot, int steps) : robot_(robot), steps_(static_cast<std::size_t>(steps)) {
   const int nv = robot.nv(), nu = robot.nu();
   for (Step& step : steps_) {
@@ -22,6 +31,7 @@ MpcPlan::MpcPlan(const RobotModel& robot, int steps) : robot_(robot), steps_(sta
   q_ = robot.nominal_configuration();
   v_ = VectorXd::Zero(nv);
   deviation_ = VectorXd::Zero(2 * nv);
+  feedback_ = VectorXd::Zero(nu);
 }
 
 const MpcPlan::Step& MpcPlan::step_at(double t) const {
@@ -62,7 +72,9 @@ void MpcPlan::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& t
     deviation_.segment<3>(3) = so3::log(base_rotation(q_).transpose() * base_rotation(q));
     deviation_.segment(6, nu) = q.tail(nu) - q_.tail(nu);
     deviation_.tail(nv) = v - v_;
-    tau.noalias() += step.gain * deviation_;
+    feedback_.noalias() = step.gain * deviation_;
+    const auto most = kMostFeedback * robot_.torque_limit();
+    tau += feedback_.cwiseMin(most).cwiseMax(-most);
     if (!tau.allFinite()) tau = step.tau;
     clamp_torques(robot_, q, v, tau);
   }

@@ -11,6 +11,7 @@ namespace prowl {
 ///
 ///   tau = tau_k + K_k (x (-) x*(t)),  within the torque limits of the robot
 ///
+/// The second part is at most a fifth of the torque limit of each joint.
 /// x (-) x* is (base displacement, world [m]; rotation vector from R* to R [rad]; joints; velocities, as RobotModel).
 /// No function allocates but the constructor.
 class MpcPlan {
@@ -42,7 +43,7 @@ class MpcPlan {
  private:
   const RobotModel& robot_;
   std::vector<Step> steps_;
-  mutable Eigen::VectorXd q_, v_, deviation_;
+  mutable Eigen::VectorXd q_, v_, deviation_, feedback_;
 };
 
 /// Clamps torques to the limits of the robot at joint positions and velocities of the state (q, v).

@@ -52,6 +52,17 @@ TEST_F(Plan, GainsMultiplyTheDeviation) {
   EXPECT_LT((tau - plan.steps()[0].tau - plan.steps()[0].gain * deviation).norm(), 1e-9);
 }
 
+/// Gains that are right near the plan throw the robot over far from it.
+TEST_F(Plan, FeedbackFarFromThePlanIsBounded) {
+  VectorXd q = plan.steps()[0].q, v, tau;
+  plan.state(1.005, q, v);
+  v += 10.0 * VectorXd::Ones(robot.nv());
+  plan.torque(1.005, q, v, tau);
+  const VectorXd feedback = (tau - plan.steps()[0].tau).cwiseAbs();
+  EXPECT_TRUE((feedback.array() <= 0.2 * robot.torque_limit().array() + 1e-9).all()) << feedback.transpose();
+  EXPECT_GT(feedback.maxCoeff(), 0.19 * robot.torque_limit().minCoeff());
+}
+
 TEST_F(Plan, VelocityIsTheRateOfTheState) {
   constexpr double kStep = 1e-6;
   VectorXd before = plan.steps()[0].q, after = before, q = before, v, ignored;
