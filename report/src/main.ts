@@ -8,9 +8,9 @@ import { el } from "./dom";
 import { foldable } from "./fold";
 import { header } from "./header";
 import { keyboard, kKeys } from "./keyboard";
-import { layerSwitches } from "./layers";
 import { MomentLink } from "./link";
 import { Live, type Shown } from "./live";
+import { makeView } from "./make_view";
 import { pickSeries } from "./pick";
 import { Plots } from "./plots";
 import { recordButton } from "./record";
@@ -18,7 +18,7 @@ import { reproduce, simulation } from "./reproduce";
 import { solver } from "./solver";
 import { ThemeSwitch } from "./theme";
 import { Timeline } from "./timeline";
-import { View } from "./view";
+import type { View } from "./view";
 
 /// State of the page, for tests.
 declare global {
@@ -46,23 +46,6 @@ function helpDialog(): HTMLDialogElement {
 }
 
 /// The view, or a note why there is none; the rest of the page works without it.
-function makeView(container: HTMLElement, data: ReportData, clock: Clock): View | null {
-  try {
-    const view = new View(container, data, clock);
-    container.append(layerSwitches(view, data));
-    return view;
-  } catch (error) {
-    container.append(
-      el(
-        "p",
-        { class: "no-view" },
-        `No 3D view: this browser provides no WebGL (${error instanceof Error ? error.message : String(error)}). Plots and tables work without it.`,
-      ),
-    );
-    return null;
-  }
-}
-
 const endOf = ({ plan, simulation, other }: ReportData): number =>
   Math.max(...[plan, simulation, other?.plan, other?.simulation].map((motion) => motion?.time.at(-1) ?? 0));
 

@@ -8,13 +8,13 @@ import { floats, type Phase, type ViewData } from "./data";
 import { el, short } from "./dom";
 import { foldable } from "./fold";
 import { keyboard } from "./keyboard";
-import { layerSwitches } from "./layers";
+import { makeView } from "./make_view";
 import type { OnlineData, OnlineMoment, OnlineResult } from "./online_data";
 import { Remote } from "./online_remote";
 import { recordButton } from "./record";
 import { ThemeSwitch } from "./theme";
 import { Timeline } from "./timeline";
-import { View } from "./view";
+import type { View } from "./view";
 
 /// State of the page, for tests.
 declare global {
@@ -96,17 +96,6 @@ function badge({ result }: OnlineData): HTMLElement {
   return result.success
     ? el("span", { class: "badge good" }, "✓ success")
     : el("span", { class: "badge bad" }, `✗ ${result.failures[0] ?? result.end}`);
-}
-
-function makeView(container: HTMLElement, data: ViewData, clock: Clock): View | null {
-  try {
-    const view = new View(container, data, clock);
-    container.append(layerSwitches(view, data));
-    return view;
-  } catch (error) {
-    container.append(el("p", { class: "no-view" }, `No 3D view: this browser provides no WebGL (${String(error)}).`));
-    return null;
-  }
 }
 
 /// Moments of the run as they come, until it ends; then the page loads again, with the whole run.
