@@ -9,12 +9,15 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "module_files.hpp"
 #include "prowl/error.hpp"
 #include "prowl/mpc/mpc_controller.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "prowl/online/online_json.hpp"
 #include "prowl/online/online_run.hpp"
 #include "prowl/online/random_events.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
+#include "pushes.hpp"
 #include "screen/online_summary.hpp"
 #include "signals.hpp"
 
@@ -117,8 +120,6 @@ struct OnlineObject {
   RowMatrix q, v, f, moves, commanded;
 };
 
-using PushArgument = std::pair<double, std::array<double, 3>>;  ///< time [s], impulse [N s]
-
 std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& gait,
                                   const std::array<double, 3>& command, double duration,
                                   const std::vector<PushArgument>& pushes, double kicks, double random_commands,
@@ -133,12 +134,12 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
   options.simulation.delay = delay;
   options.simulation.physics.friction = friction;
   options.simulation.physics.mass_scale = mass;
+  options.simulation.physics.collisions = collision_shapes(robot, package_search({}));
   options.simulation.noise_scale = noise;
   options.simulation.perfect_state = perfect_state;
   options.simulation.seed = seed;
   options.simulation.record_rate = record_rate;
-  for (const auto& [time, impulse] : pushes)
-    options.simulation.pushes.push_back({{impulse[0], impulse[1], impulse[2]}, time});
+  options.simulation.pushes = pushes_of(pushes, Push{}.duration);
   if (kicks > 0.0) add_kicks(robot, kicks, options);
   if (random_commands > 0.0) {
     add_random_commands(random_commands, options);

@@ -15,6 +15,7 @@
 #include "prowl/error.hpp"
 #include "prowl/plan_folder/simulation_files.hpp"
 #include "prowl/simulation/collision_shapes.hpp"
+#include "pushes.hpp"
 #include "signals.hpp"
 
 namespace prowl::python {
@@ -54,8 +55,6 @@ SimulationObject::SimulationObject(std::shared_ptr<const PlanObject> simulated, 
   }
 }
 
-using PushArgument = std::pair<double, std::array<double, 3>>;  ///< time [s], impulse [N s]
-
 std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject> plan, bool open_loop,
                                                 bool perfect_state, double noise, double delay, double bandwidth,
                                                 double control_rate, double mass, std::optional<double> friction,
@@ -76,8 +75,7 @@ std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject
   if (!(push_duration > 0.0))
     throw InputError(fmt::format("push_duration: {} is not allowed; need > 0 s", push_duration));
   if (!(record_rate > 0.0)) throw InputError(fmt::format("record_rate: {} is not allowed; need > 0 Hz", record_rate));
-  for (const auto& [time, impulse] : pushes)
-    options.pushes.push_back({{impulse[0], impulse[1], impulse[2]}, time, push_duration});
+  options.pushes = pushes_of(pushes, push_duration);
   options.seed = seed;
   options.record_rate = record_rate;
   constexpr int kTicks = 50;

@@ -22,7 +22,7 @@ def test_the_command_runs_the_same(hyq):
     command = [COMMAND, "mpc", "hyq", "--kicks", "0.3", "--duration", "3", "--seed", "5", "--friction", "0.7", "--json"]
     answer = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     mine = json.loads(run.to_json())
-    for key in ("end_time_s", "velocity_error_mps", "turn_error_radps", "plans", "failed_plans", "forces"):
+    for key in ("end_time_s", "velocity_error_mps", "turn_error_radps", "plans", "failed_plans", "forces", "failures"):
         assert mine[key] == answer[key], key
     assert run.success and not run.failures and not run.notes
 
