@@ -104,7 +104,7 @@ void write_page(const RobotModel& robot, const MpcArguments& arguments, const On
   std::vector<std::string> warnings;
   const std::string html =
       online_page({robot, options, result, page_without_data("online"), PageState::file}, search, warnings);
-  for (const std::string& warning : warnings) print_message(fmt::format("warning: {}\n", warning));
+  print_warnings(warnings);
   write_file_atomically(arguments.page, html);
   print_message(fmt::format("page: {}, {:.1f} MB\n", arguments.page, 1e-6 * static_cast<double>(html.size())));
 }

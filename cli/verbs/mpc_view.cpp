@@ -45,7 +45,7 @@ class LiveRun {
     show(result, PageState::solved);
     server_.publish("ended", "{}");
     if (!interrupted_) print_message("the page shows the whole run; Ctrl-C stops it\n");
-    while (!interrupted_) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    serve_until(interrupted_);
   }
 
  private:
@@ -53,15 +53,14 @@ class LiveRun {
     OnlineResult nothing_yet;
     nothing_yet.samples.push_back(std::move(sample));
     show(nothing_yet, PageState::solving);
-    print_message(server_.url() + "\nopen it in a browser on this machine; Ctrl-C stops it\n");
+    print_message(server_.url() + "\n" + kHowToOpen);
     began_ = std::chrono::steady_clock::now();
   }
 
   void show(const OnlineResult& result, PageState state) {
     std::vector<std::string> warnings;
     server_.show(online_page({robot_, options_, result, page_without_data("online"), state}, search_, warnings));
-    if (state != PageState::solving) return;
-    for (const std::string& warning : warnings) print_message(fmt::format("warning: {}\n", warning));
+    if (state == PageState::solving) print_warnings(warnings);
   }
 
   void obey(const std::string& text, OnlineMoment& moment) {

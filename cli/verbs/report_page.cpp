@@ -33,6 +33,10 @@ std::string page_without_data(const std::string& name) {
   return read_text_file(page, kLongestPage).text;
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) print_message(fmt::format("warning: {}\n", warning));
+}
+
 ReportInputs report_inputs(const PlanRecord& plan, const fs::path& directory) {
   ReportInputs inputs{.plan = plan, .directory = directory.string(), .template_html = page_without_data("report")};
   if (directory.empty()) return inputs;
@@ -46,7 +50,7 @@ ReportInputs report_inputs(const PlanRecord& plan, const fs::path& directory) {
 
 Report report_page(const ReportInputs& inputs, const PackageSearch& search, const ReportInputs* other) {
   Report report = make_report(inputs, search, other);
-  for (const std::string& warning : report.warnings) print_message(fmt::format("warning: {}\n", warning));
+  print_warnings(report.warnings);
   return report;
 }
 

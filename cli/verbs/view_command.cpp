@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/options/shared_options.hpp"
 #include "cli/process/exit_status.hpp"
@@ -45,11 +43,7 @@ void say_where(const ViewServer& server, bool json) {
   } else {
     print_result(server.url() + "\n");
   }
-  print_message("open it in a browser on this machine; Ctrl-C stops it\n");
-}
-
-void serve_until(const std::atomic<bool>& interrupted) {
-  while (!interrupted) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  print_message(kHowToOpen);
 }
 
 int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {

@@ -172,6 +172,10 @@ class ViewServer::Connections {
   std::thread thread_;
 };
 
+void serve_until(const std::atomic<bool>& interrupted) {
+  while (!interrupted) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
 ViewServer::ViewServer(std::uint16_t port) : connections_(std::make_unique<Connections>(port)) {}
 ViewServer::~ViewServer() = default;
 

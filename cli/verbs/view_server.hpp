@@ -1,11 +1,18 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace prowl::cli {
+
+/// What a user does with the address of a server.
+constexpr const char* kHowToOpen = "open it in a browser on this machine; Ctrl-C stops it\n";
+
+/// Waits while servers answer in their own threads.
+void serve_until(const std::atomic<bool>& interrupted);
 
 /// An HTTP server for one page and a stream of events, reachable only from this machine: it listens
 /// on 127.0.0.1 and answers only requests with that host, which prevents DNS rebinding. Runs in its
