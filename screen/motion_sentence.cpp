@@ -42,7 +42,7 @@ std::string travel(const Vector3d& d) {
 /// Displacement of the base from the start at each node, along its heading at the start.
 std::vector<Vector3d> displacements(const Trajectory& trajectory) {
   const Eigen::VectorXd& start = trajectory.nodes.front().q;
-  const double heading = rpy_from_rotation(base_rotation(start)).z(), c = std::cos(heading), s = std::sin(heading);
+  const double yaw = heading(start), c = std::cos(yaw), s = std::sin(yaw);
   std::vector<Vector3d> all;
   for (const TrajectoryPoint& node : trajectory.nodes) {
     const Vector3d d = base_position(node.q) - base_position(start);

@@ -23,5 +23,7 @@ void set_base_rotation(Eigen::VectorXd& q, const Eigen::Matrix3d& R);
 Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy);
 /// Its inverse: pitch in [-pi/2, pi/2]; if |pitch| = pi/2, any roll and yaw that give R.
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R);
+/// Heading of the base: the yaw of its rotation [rad].
+inline double heading(const Eigen::VectorXd& q) { return rpy_from_rotation(base_rotation(q)).z(); }
 
 }  // namespace prowl

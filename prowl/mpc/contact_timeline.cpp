@@ -47,12 +47,12 @@ const ContactTimeline::Swing* ContactTimeline::swing(int foot, double t) const {
   return nullptr;
 }
 
-const ContactTimeline::Swing* ContactTimeline::landed(int foot, double t) const {
+const ContactTimeline::Swing* ContactTimeline::unfelt(int foot, double t) const {
   const Swing* latest = nullptr;
   for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
     if (swing.land <= t) latest = &swing;
   }
-  return latest;
+  return latest && !latest->has_touched && t - latest->land <= kLandingTime ? latest : nullptr;
 }
 
 void ContactTimeline::add_switches(double from, double to, std::vector<double>& switches) const {

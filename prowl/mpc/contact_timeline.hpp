@@ -35,8 +35,8 @@ class ContactTimeline {
   int num_feet() const { return static_cast<int>(swings_.size()); }
   /// The swing at time t [s], or nullptr: the foot stands. A foot stands at the moment of its landing.
   const Swing* swing(int foot, double t) const;
-  /// The latest swing that has ended by time t [s], or nullptr.
-  const Swing* landed(int foot, double t) const;
+  /// The swing that should have ended at most kLandingTime before t [s], without a touch felt since; or nullptr.
+  const Swing* unfelt(int foot, double t) const;
   /// Appends lift-offs and landings between both times [s], unordered.
   void add_switches(double from, double to, std::vector<double>& switches) const;
   /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has
@@ -45,7 +45,7 @@ class ContactTimeline {
   /// Time by which the latest landing before t or the next one is late [s]; 0 if it is not.
   double lateness(int foot, double t) const;
 
-  static constexpr double kMostLate = 0.15;  ///< [s]
+  static constexpr double kMostLate = 0.15, kLandingTime = 0.05;  ///< [s]
 
  private:
   SteppingPattern pattern_;

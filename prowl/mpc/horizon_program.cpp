@@ -1,12 +1,11 @@
 #include "prowl/mpc/horizon_program.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "prowl/dynamics/inverse_kinematics.hpp"
-#include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
+#include "prowl/mpc/horizon_cost.hpp"
+#include "prowl/mpc/standing_robot.hpp"
 #include "prowl/transcription/node/independent_contacts.hpp"
 #include "prowl/transcription/variable_units.hpp"
 
@@ -22,84 +21,7 @@ using Entry = Eigen::SparseMatrix<double>::InnerIterator;
 /// with less, feedback lifts it off (2 % and 25 % let Go2 fall when it walks).
 constexpr double kMpcLeastLoad = 0.1;
 
-/// Cost of the state, and of inputs, in physical units.
-QuadraticCost quadratic(const RobotModel& robot, const MpcWeights& w, const VectorXd& q_ref) {
-  const int nv = robot.nv(), nu = robot.nu();
-  const double l = robot.size(), time = std::sqrt(l / RobotModel::kGravity), force = robot.weight();
-  QuadraticCost cost;
-  cost.q_ref = q_ref;
-  cost.v_ref = VectorXd::Zero(nv);
-  cost.configuration_weight.resize(nv);
-  cost.velocity_weight.resize(nv);
-  cost.acceleration_weight.resize(nv);
-  cost.configuration_weight.head<6>() << Eigen::Vector3d(w.place, w.place, w.height) / (l * l), w.tilt, w.tilt,
-      w.heading;
-  cost.velocity_weight.head<6>() << Eigen::Vector3d(w.velocity, w.velocity, w.climb) * (time * time / (l * l)),
-      Eigen::Vector3d::Constant(w.turning * time * time);
-  const double g = RobotModel::kGravity;
-  cost.acceleration_weight.head<6>() << Eigen::Vector3d::Constant(w.acceleration / (g * g)),
-      Eigen::Vector3d::Constant(w.acceleration * time * time * time * time);
-  cost.configuration_weight.tail(nu).setConstant(w.posture);
-  cost.velocity_weight.tail(nu).setConstant(w.joint_rate * time * time);
-  cost.acceleration_weight.tail(nu).setConstant(w.acceleration * time * time * time * time);
-  cost.tau_ref = VectorXd::Zero(nu);
-  cost.torque_weight = VectorXd::Constant(nu, w.torque / (force * l * force * l));
-  cost.force_weight.setConstant(w.force / (force * force));
-  return cost;
-}
-
-QuadraticCost running(QuadraticCost cost, double factor) {
-  for (VectorXd* weight :
-       {&cost.configuration_weight, &cost.velocity_weight, &cost.acceleration_weight, &cost.torque_weight})
-    *weight *= factor;
-  cost.force_weight *= factor;
-  return cost;
-}
-
-QuadraticCost terminal(QuadraticCost cost, double factor) {
-  cost.configuration_weight *= factor;
-  cost.velocity_weight *= factor;
-  for (VectorXd* weight : {&cost.acceleration_weight, &cost.torque_weight}) weight->setZero();
-  cost.force_weight.setZero();
-  return cost;
-}
-
 }  // namespace
-
-VectorXd standing_on_ground(const RobotModel& robot) {
-  VectorXd q = robot.nominal_configuration();
-  RigidBodyTerms terms(robot);
-  terms.update_kinematics(q);
-  std::vector<ContactTarget> targets;
-  for (int c = 0; c < static_cast<int>(robot.contacts().size()); ++c) {
-    Eigen::Vector3d position = terms.contact_position(c);
-    position.z() = robot.contacts()[static_cast<std::size_t>(c)].radius;
-    targets.push_back({c, position});
-  }
-  const InverseKinematics standing = inverse_kinematics(robot, q, targets);
-  constexpr double kOff = 1e-3;  // [m], as of the start of a planned motion
-  if (!(standing.residual <= kOff))
-    throw InputError(robot.name() + ": the nominal posture does not stand: its contacts do not reach the ground");
-  return standing.q;
-}
-
-std::vector<std::vector<int>> contacts_of_feet(const RobotModel& robot) {
-  RigidBodyTerms terms(robot);
-  terms.update_kinematics(robot.nominal_configuration());
-  std::vector<std::vector<int>> feet;
-  std::vector<int> bodies;
-  for (int c = 0; c < static_cast<int>(robot.contacts().size()); ++c) {
-    const int body = terms.contact_point(c).body;
-    const auto known = std::find(bodies.begin(), bodies.end(), body);
-    if (known == bodies.end()) {
-      bodies.push_back(body);
-      feet.push_back({c});
-    } else {
-      feet[static_cast<std::size_t>(known - bodies.begin())].push_back(c);
-    }
-  }
-  return feet;
-}
 
 HorizonProgram::~HorizonProgram() = default;
 
@@ -174,15 +96,14 @@ void HorizonProgram::size_work_spaces() {
 }
 
 void HorizonProgram::make_sets(const MpcWeights& weights, double friction) {
-  const double time = std::sqrt(length_ / RobotModel::kGravity);
   MotionProblem problem{
       .name = "horizon",
       .robot = robot_,
       .surfaces = {Surface{.name = "ground", .friction = friction}},
       .phases = {},
       .boundary_constraints = {BoundaryConstraint::unbounded(robot_, "start", PhaseFraction::start_of(0), standing_)},
-      .running_cost = running(quadratic(robot_, weights, standing_), 1.0 / time),
-      .terminal_cost = terminal(quadratic(robot_, weights, standing_), weights.terminal),
+      .running_cost = horizon_cost(robot_, weights, standing_),
+      .terminal_cost = horizon_end_cost(robot_, weights, standing_),
       .goal_tolerance = {}};
   problem.friction_model = FrictionModel::pyramid;
   problem.least_load = kMpcLeastLoad;

@@ -12,12 +12,6 @@
 
 namespace prowl {
 
-/// Contacts of each foot: those on one body of the robot, in the order of RobotModel::contacts().
-std::vector<std::vector<int>> contacts_of_feet(const RobotModel& robot);
-
-/// The nominal posture with all contacts on the ground z = 0 (nq). Throws InputError if they do not reach it.
-Eigen::VectorXd standing_on_ground(const RobotModel& robot);
-
 /// What one step of the horizon is about, set before each linearisation.
 struct HorizonStep {
   double length = 0.0;           ///< h [s]

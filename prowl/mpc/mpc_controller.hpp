@@ -5,36 +5,18 @@
 #include <vector>
 
 #include "prowl/dynamics/forward_dynamics.hpp"
+#include "prowl/mpc/command_lead.hpp"
 #include "prowl/mpc/contact_timeline.hpp"
 #include "prowl/mpc/ground_plane.hpp"
+#include "prowl/mpc/horizon_bounds.hpp"
 #include "prowl/mpc/horizon_grid.hpp"
 #include "prowl/mpc/horizon_program.hpp"
 #include "prowl/mpc/horizon_solver.hpp"
+#include "prowl/mpc/mpc_options.hpp"
 #include "prowl/mpc/mpc_plan.hpp"
+#include "prowl/mpc/standing_robot.hpp"
 
 namespace prowl {
-
-struct MpcOptions {
-  MpcWeights weights;
-  double friction = 0.6;       ///< coefficient of the ground that plans may use [-]
-  int steps = 20;              ///< of the horizon
-  double first_step = 0.015;   ///< [s]
-  double least_horizon = 0.6;  ///< [s]; a stride if that is longer
-  double clearance = 0.12;     ///< height of a swing, as a share of the robot's standing height [-]
-  double delay = 0.0;          ///< from a measured state to the time at which its plan acts [s]
-  double barrier = 1e-5;       ///< mu, of a step of mean length [-]
-  int iterations = 10;         ///< most of the quadratic program of an update
-  HessianKind hessian = HessianKind::gauss_newton_with_cones;
-};
-
-/// What a robot is asked to do; velocities in the frame of its heading. Changes are smoothed.
-struct MpcCommand {
-  double forward = 0.0, left = 0.0;  ///< [m/s]
-  double turn = 0.0;                 ///< about the vertical [rad/s]
-  double height = 0.0;               ///< of the base, from its standing height [m]
-
-  bool operator==(const MpcCommand&) const = default;
-};
 
 /// Events since the start of a controller.
 struct MpcCounters {
@@ -60,7 +42,7 @@ class MpcController {
   const std::vector<std::vector<int>>& feet() const { return program_.feet(); }
   void follow(const SteppingPattern& pattern);
   /// Returns the command that is followed: within the speeds that the legs allow.
-  MpcCommand command(const MpcCommand& command);
+  MpcCommand command(const MpcCommand& command) { return lead_.command(command); }
   /// Drops the latest plan, which came too late: the one before goes on.
   void drop_latest();
   /// Which feet touch the ground (one flag a foot), as measured at time t [s]. A foot that touches in the second half
@@ -79,7 +61,7 @@ class MpcController {
 
   const MpcPlan& latest() const { return plan_; }
   /// Command after smoothing, as the latest plan follows it.
-  const MpcCommand& followed() const { return smooth_; }
+  const MpcCommand& followed() const { return lead_.followed(); }
   const ContactTimeline& timeline() const { return timeline_; }
   const HorizonSolver& solver() const { return solver_; }
   const MpcCounters& counters() const { return counters_; }
@@ -87,15 +69,11 @@ class MpcController {
 
  private:
   void lay_horizon(double start);
-  void set_bounds();
-  double most_friction_row(int foot, double t) const;
   void shift();
-  void lead(double start);
   void predict(Eigen::VectorXd& q, Eigen::VectorXd& v, double from, double to);
   void restart();
   void read_plan();
   void find_ground(const Eigen::VectorXd& q, double t);
-  double ground_under(int foot, const Eigen::VectorXd& q) const;
   unsigned standing_at(double t) const;
 
   RobotModel robot_;
@@ -105,17 +83,15 @@ class MpcController {
   ContactTimeline timeline_;
   HorizonGrid grid_;
   MpcPlan plan_, previous_;
-  MpcCommand command_, smooth_;
   int failed_in_a_row_ = 0;
   bool is_settled_ = true;  ///< the latest update took its whole step
   MpcCounters counters_;
   std::vector<std::unique_ptr<ForwardDynamics>> dynamics_;  ///< by the bits of standing feet
   RigidBodyTerms terms_;
   GroundPlane ground_;
-  std::vector<Eigen::Vector2d> offsets_;  ///< of each foot from the base in the standing posture, axes of heading [m]
-  double horizon_start_ = 0.0, led_until_;
-  Eigen::Vector2d place_;  ///< where the command has led, world [m]
-  double heading_;         ///< [rad]
+  CommandLead lead_;
+  HorizonBounds bounds_;
+  double horizon_start_ = 0.0;
   std::vector<BarrierRows> old_rows_;
   std::vector<StageMultipliers> old_multipliers_;
   std::vector<double> old_lengths_;

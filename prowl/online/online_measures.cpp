@@ -19,7 +19,7 @@ constexpr double kMostOutside = 0.01;      ///< of the weight, of forces that co
 /// Velocity of the base ahead and to the left of its heading, and its turn rate.
 Eigen::Vector3d moves_of(const Physics& physics) {
   const Eigen::Matrix3d rotation = base_rotation(physics.q());
-  const double yaw = rpy_from_rotation(rotation).z(), c = std::cos(yaw), s = std::sin(yaw);
+  const double yaw = heading(physics.q()), c = std::cos(yaw), s = std::sin(yaw);
   const Eigen::Vector3d velocity = rotation * physics.v().head<3>();
   return {c * velocity.x() + s * velocity.y(), c * velocity.y() - s * velocity.x(),
           (rotation * physics.v().segment<3>(3)).z()};

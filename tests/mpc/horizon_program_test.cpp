@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "prowl/model/configuration.hpp"
+#include "prowl/mpc/standing_robot.hpp"
 #include "tests/support/random_vector.hpp"
 #include "tests/support/robots.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "prowl/dynamics/static_equilibrium.hpp"
-#include "prowl/mpc/horizon_program.hpp"
+#include "prowl/mpc/standing_robot.hpp"
 #include "tests/support/robots.hpp"
 
 namespace prowl {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "prowl/mpc/ground_plane.hpp"
+#include "prowl/mpc/horizon_grid.hpp"
+#include "prowl/mpc/horizon_program.hpp"
+
+namespace prowl {
+
+/// What a robot is asked to do; velocities in the frame of its heading. Changes are smoothed.
+struct MpcCommand {
+  double forward = 0.0, left = 0.0;  ///< [m/s]
+  double turn = 0.0;                 ///< about the vertical [rad/s]
+  double height = 0.0;               ///< of the base, from its standing height [m]
+
+  bool operator==(const MpcCommand&) const = default;
+};
+
+/// Where commands lead: place and heading that a robot should have by now, and references of a horizon from there.
+class CommandLead {
+ public:
+  /// `standing` (nq): posture of all references. At time t [s] the robot is at q, and stays.
+  CommandLead(const Eigen::VectorXd& standing, const Eigen::VectorXd& q, double t);
+
+  /// Returns the command that is followed: within the speeds that the legs allow; 0 for a part that is not finite.
+  MpcCommand command(const MpcCommand& command);
+  /// Command after smoothing.
+  const MpcCommand& followed() const { return smooth_; }
+  /// Leads on to time `start` [s], and sets the references of a horizon that begins then.
+  void lead(double start, const HorizonGrid& grid, const GroundPlane& ground, HorizonProgram& program);
+  /// Stays near a robot that is elsewhere than led, `size` [m] large.
+  void stay_near(const Eigen::VectorXd& q, double size);
+
+ private:
+  const Eigen::VectorXd& standing_;
+  MpcCommand command_, smooth_;
+  double led_until_;       ///< [s]
+  Eigen::Vector2d place_;  ///< world [m]
+  double heading_;         ///< [rad]
+};
+
+}  // namespace prowl

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "prowl/mpc/mpc_weights.hpp"
+#include "prowl/transcription/node/node_functions.hpp"
+
+namespace prowl {
+
+struct MpcOptions {
+  MpcWeights weights;
+  double friction = 0.6;       ///< coefficient of the ground that plans may use [-]
+  int steps = 20;              ///< of the horizon
+  double first_step = 0.015;   ///< [s]
+  double least_horizon = 0.6;  ///< [s]; a stride if that is longer
+  double clearance = 0.12;     ///< height of a swing, as a share of the robot's standing height [-]
+  double delay = 0.0;          ///< from a measured state to the time at which its plan acts [s]
+  double barrier = 1e-5;       ///< mu, of a step of mean length [-]
+  int iterations = 10;         ///< most of the quadratic program of an update
+  HessianKind hessian = HessianKind::gauss_newton_with_cones;
+};
+
+}  // namespace prowl
