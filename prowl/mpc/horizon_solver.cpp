@@ -25,7 +25,11 @@ constexpr double kMostProducts = 30.0;
 }  // namespace
 
 HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterations)
-    : program_(program), kkt_(program, StageKkt::Start::given), barrier_(barrier), iterations_(iterations) {
+    : program_(program),
+      kkt_(program, StageKkt::Start::given),
+      barrier_(barrier),
+      iterations_(iterations),
+      near_(std::min(kNearSteps, program.num_stages())) {
   const StageSize& size = program.size(0);
   for (int k = 0; k < program.num_stages(); ++k) {
     rows_.emplace_back(size.inequalities);
@@ -37,6 +41,7 @@ HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterat
     equalities_.emplace_back(VectorXd::Zero(size.equalities));
     links_.emplace_back(VectorXd::Zero(k + 1 < program.num_stages() ? size.states : 0));
   }
+  residuals_.assign(static_cast<std::size_t>(program.num_stages()), 0.0);
   states_.setZero(size.states);
   gain_.setZero(size.inputs, size.states);
 }
@@ -69,14 +74,22 @@ bool HorizonSolver::prepare() {
     return false;
   }
   if (!std::isfinite(violation_)) return false;
+  kkt_.determine_inputs();
   set_weights();
   aim(barrier_);
-  kkt_.determine_inputs();
+  states_.setZero();
+  if (!factorise() || !solve(stages)) return false;
+  set_weights();
+  aim(barrier_);
   return factorise();
 }
 
 /// A barrier parameter of a step of mean length for step k: the barrier is a running cost.
 double HorizonSolver::scaled(double barrier, int k) const { return barrier * program_.step(k).length / mean_length_; }
+
+double HorizonSolver::residual(int stages) const {
+  return *std::max_element(residuals_.begin(), residuals_.begin() + stages);
+}
 
 void HorizonSolver::set_weights() {
   for (int k = 0; k < program_.num_stages(); ++k)
@@ -132,12 +145,11 @@ double HorizonSolver::longest() const {
 }
 
 void HorizonSolver::take(double share) {
-  residual_ = near_residual_ = 0.0;
   for (int k = 0; k < program_.num_stages(); ++k) {
-    residual_ = std::max(residual_, rows_[k].step(kkt_.along_inequalities()[k], share));
-    if (k < kNearSteps) near_residual_ = residual_;
+    const VectorXd& along = kkt_.along_inequalities()[k];
+    residuals_[k] = rows_[k].step(along, share);
     step_[k] += share * kkt_.steps()[k];
-    inequalities_[k] += share * kkt_.along_inequalities()[k];
+    inequalities_[k] += share * along;
     equalities_[k] *= 1.0 - share;
     links_[k] *= 1.0 - share;
   }
@@ -150,8 +162,17 @@ double HorizonSolver::products(double share) const {
   return sum;
 }
 
+/// Until the rows of the first `judged` steps fit. The first step is taken as a whole, as it removes the violations of
+/// dynamics and start.
+bool HorizonSolver::solve(int judged) {
+  if (!find_direction()) return false;
+  take(1.0);
+  done_ = 1;
+  return residual(judged) <= kTolerance || solve_anew(judged);
+}
+
 /// By Mehrotra's predictor and corrector, from distances that leave room.
-bool HorizonSolver::solve_anew() {
+bool HorizonSolver::solve_anew(int judged) {
   int count = 0;
   for (int k = 0; k < program_.num_stages(); ++k) {
     rows_[k].open(inequalities_[k], scaled(kOpenBarrier, k), kOpenDistance);
@@ -166,22 +187,17 @@ bool HorizonSolver::solve_anew() {
     correct(std::max(barrier_, before * ahead * ahead * ahead));
     if (!find_direction()) return false;
     take(longest());
-    is_solved = residual_ <= kTolerance && mean_product(0.0) <= kMostProducts * barrier_;
+    is_solved = residual(judged) <= kTolerance && mean_product(0.0) <= kMostProducts * barrier_;
   }
   return true;
 }
 
-/// The first step of a quadratic program is taken as a whole, as it removes the violations of dynamics and start.
 bool HorizonSolver::step(const VectorXd& q, const VectorXd& v) {
   const int stages = program_.num_stages();
   program_.to_states(0, q, v, states_);
   states_ -= program_.variables(0).tail(states_.size());
   start_ = states_;
-  if (!find_direction()) return false;
-  take(1.0);
-  done_ = 1;
-  if (residual_ > kTolerance && !solve_anew()) return false;
-  if (near_residual_ > kUnsolved) return false;
+  if (!solve(near_) || residual() > kUnsolved) return false;
   double largest = 0.0;
   for (int k = 0; k < stages; ++k)
     largest = std::max(largest, step_[k].tail(program_.size(k).states).lpNorm<Eigen::Infinity>());

@@ -13,7 +13,8 @@ using PushArgument = std::pair<double, std::array<double, 3>>;  ///< time [s], i
 /// Pushes of the base, each so long [s].
 inline std::vector<Push> pushes_of(const std::vector<PushArgument>& arguments, double duration) {
   std::vector<Push> pushes;
-  for (const auto& [time, impulse] : arguments) pushes.push_back({{impulse[0], impulse[1], impulse[2]}, time, duration});
+  for (const auto& [time, impulse] : arguments)
+    pushes.push_back({{impulse[0], impulse[1], impulse[2]}, time, duration});
   return pushes;
 }
 
