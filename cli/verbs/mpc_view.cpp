@@ -12,6 +12,7 @@
 #include "cli/verbs/view_server.hpp"
 #include "prowl/error.hpp"
 #include "prowl/report_page/online_page.hpp"
+#include "prowl/report_page/online_wish.hpp"
 #include "prowl/simulation/perturbations.hpp"
 
 namespace prowl::cli {

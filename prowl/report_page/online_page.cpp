@@ -131,26 +131,4 @@ std::string online_event(const RobotModel& robot, const OnlineSample& sample) {
   return json.dump();
 }
 
-OnlineWish parse_wish(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
-  const auto number = [&](const Json& object, const char* key) {
-    const auto found = object.find(key);
-    if (found == object.end() || !found->is_number()) throw InputError(std::string(key) + ": need a number");
-    return found->get<double>();
-  };
-  if (!json.is_object()) throw InputError("need a JSON object");
-  OnlineWish wish;
-  if (json.contains("kick")) {
-    wish.kick = number(json, "kick");
-    constexpr double kMost = 5.0;  // [m/s]
-    if (!(std::abs(*wish.kick) <= kMost)) throw InputError("kick: need at most 5 m/s");
-  }
-  if (json.contains("forward")) {
-    TimedCommand& timed = wish.command.emplace();
-    timed.command = {number(json, "forward"), number(json, "left"), number(json, "turn"), number(json, "height")};
-    if (json.contains("gait") && json["gait"].is_string()) timed.gait = json["gait"].get<std::string>();
-  }
-  return wish;
-}
-
 }  // namespace prowl

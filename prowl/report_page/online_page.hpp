@@ -27,12 +27,4 @@ std::string online_page(const OnlinePageInputs& inputs, const PackageSearch& sea
 /// One moment of a run that goes on, for its page. JSON on one line.
 std::string online_event(const RobotModel& robot, const OnlineSample& sample);
 
-/// What the page asks for.
-struct OnlineWish {
-  std::optional<TimedCommand> command;
-  std::optional<double> kick;  ///< in a random direction, impulse over mass [m/s]
-};
-/// From a message of the page. Throws InputError if it is none.
-OnlineWish parse_wish(const std::string& json);
-
 }  // namespace prowl

@@ -8,9 +8,11 @@
 
 #include "fuzz/sample.hpp"
 #include "prowl/error.hpp"
+#include "prowl/online/script_file.hpp"
 #include "prowl/plan_folder/plan_folder.hpp"
 #include "prowl/plan_folder/plan_json.hpp"
 #include "prowl/plan_folder/trajectory_csv.hpp"
+#include "prowl/report_page/online_wish.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "prowl/task_file/task_file.hpp"
 #include "prowl/tracker/tracker.hpp"
@@ -40,6 +42,8 @@ const std::map<std::string, Read> kReaders = {
        const bool walks = s.text.find("[gait]") != std::string::npos;
        parse_task(s, walks ? SourceText{"robot.toml", fuzz::kQuadruped} : kRobot, {}, {}, {.urdf = kUrdf});
      }},
+    {"script", [](const SourceText& s) { read_script(s); }},
+    {"wish", [](const SourceText& s) { parse_wish(s.text); }},
     {"plan", [](const SourceText& s) { plan_from_json(s, {}); }},
     {"trajectory",
      [](const SourceText& s) {

@@ -1,4 +1,4 @@
-prowl_test(fuzz/seeds prowl::plan_folder nlohmann_json::nlohmann_json)
+prowl_test(fuzz/seeds prowl::plan_folder prowl::report_page nlohmann_json::nlohmann_json)
 
 # A short run of each fuzz target, built on one core beside other tests; scripts/test installs Clang. Without it the test is
 # skipped, in CI it fails.
