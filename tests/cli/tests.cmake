@@ -37,6 +37,13 @@ if(PROWL_BUILD_CLI)
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/bad_input_test.py $<TARGET_FILE:prowl_cli>)
   set_tests_properties(cli/bad_input PROPERTIES TIMEOUT 1200 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
 
+  # Runs of online control: seeds that nothing was tuned with.
+  foreach(robot hyq go2)
+    add_test(NAME cli/online_seeds_${robot}
+      COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/online_seeds_test.py $<TARGET_FILE:prowl_cli> ${robot})
+    set_tests_properties(cli/online_seeds_${robot} PROPERTIES TIMEOUT 1800 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+  endforeach()
+
   # What prowl writes, read by somebody else's code; and a terminal for it that closes.
   set(python_tests determinism plan_schema hang_up terminal)
   if(PROWL_BUILD_PYTHON)
