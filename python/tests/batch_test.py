@@ -92,8 +92,15 @@ def test_it_is_the_same_with_one_worker_and_after_a_loss(library, tmp_path):
     assert other.sha256() == library.sha256()
 
 
+def is_worker(process: psutil.Process) -> bool:
+    try:
+        return "spawn_main" in " ".join(process.cmdline())
+    except psutil.NoSuchProcess:  # it has just died
+        return False
+
+
 def descendants() -> list[psutil.Process]:
-    return [child for child in psutil.Process().children(recursive=True) if "spawn_main" in " ".join(child.cmdline())]
+    return [child for child in psutil.Process().children(recursive=True) if is_worker(child)]
 
 
 def test_workers_may_die(library, tmp_path):
