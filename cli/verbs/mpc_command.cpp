@@ -79,16 +79,14 @@ OnlineOptions base_options(const RobotModel& robot, const MpcArguments& argument
   options.simulation.physics.friction = arguments.friction;
   options.simulation.physics.collisions = collision_shapes(robot, search);
   options.simulation.ground.tilt.y() = -arguments.slope * std::numbers::pi / 180.0;  // ahead the ground rises
-  options.late = arguments.late == "drop" ? LatePlans::drop : LatePlans::act;
+  options.late = late_plans_named(arguments.late);
   return options;
 }
 
 void add_events(const RobotModel& robot, const MpcArguments& arguments, OnlineOptions& options) {
   options.simulation.pushes = read_pushes(arguments.push, Push{}.duration);
   if (!arguments.script.empty()) {
-    Script script = read_script(read_text_file(arguments.script));
-    options.commands = std::move(script.commands);
-    options.simulation.pushes.insert(options.simulation.pushes.end(), script.pushes.begin(), script.pushes.end());
+    add_script(read_script(read_text_file(arguments.script)), options);
   } else if (arguments.random_commands > 0.0) {
     add_random_commands(arguments.random_commands, options);
   } else {
@@ -233,8 +231,8 @@ void add_mpc_command(CLI::App& app, int& status) {
       ->check(number_in({.lower = 0.0, .upper = 200.0}));
   verb->add_option("--late", arguments->late,
                    "Plans that take longer: act (default) at the end of the budget all the same, which every machine "
-                   "repeats; or drop")
-      ->check(one_of({"act", "drop"}))
+                   "repeats; drop; or wait: when they are ready, and the next state is measured then")
+      ->check(one_of({"act", "drop", "wait"}))
       ->type_name("NAME");
   CLI::Option* const script =
       verb->add_option("--script", arguments->script, "Commands, gaits and pushes from a file (docs/mpc.md#a-script)")

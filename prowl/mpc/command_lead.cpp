@@ -37,28 +37,32 @@ MpcCommand CommandLead::command(const MpcCommand& command) {
   return command_;
 }
 
-void CommandLead::lead(double start, const HorizonGrid& grid, const GroundPlane& ground, HorizonProgram& program) {
+void CommandLead::advance(double start) {
   const double cos = std::cos(heading_), sin = std::sin(heading_);
   const double dt = std::clamp(start - led_until_, 0.0, 0.1);
   led_until_ = start;
-  const double standing = standing_.z();
   const auto approach = [](double& value, double target, double most) {
     value += std::clamp(target - value, -most, most);
   };
   approach(smooth_.forward, command_.forward, dt * kMostPush * RobotModel::kGravity);
   approach(smooth_.left, command_.left, dt * kMostPush * RobotModel::kGravity);
-  approach(smooth_.turn, command_.turn, dt * kMostSpin * RobotModel::kGravity / standing);
-  approach(smooth_.height, command_.height, dt * kMostHeight * standing);
+  approach(smooth_.turn, command_.turn, dt * kMostSpin * RobotModel::kGravity / standing_.z());
+  approach(smooth_.height, command_.height, dt * kMostHeight * standing_.z());
   const auto [forward, left, turn, raised] = smooth_;
   place_ += dt * Eigen::Vector2d(cos * forward - sin * left, sin * forward + cos * left);
   heading_ = wrapped(heading_ + dt * turn);
+}
+
+void CommandLead::lead(double start, const HorizonGrid& grid, const GroundPlane& ground, HorizonProgram& program) {
+  advance(start);
+  const auto [forward, left, turn, raised] = smooth_;
   for (int k = 0; k < program.num_stages(); ++k) {
     HorizonStep& step = program.step(k);
     const double ahead = grid.middle(k) - start, turned = heading_ + ahead * turn;
     const double middle = heading_ + 0.5 * ahead * turn, c = std::cos(middle), s = std::sin(middle);
     step.q_ref = standing_;
     const Eigen::Vector2d place = place_ + ahead * Eigen::Vector2d(c * forward - s * left, s * forward + c * left);
-    step.q_ref.head<3>() << place, ground.height(place) + standing + raised;
+    step.q_ref.head<3>() << place, ground.height(place) + standing_.z() + raised;
     // The base stays parallel to the ground: the joints are as on level ground.
     set_base_rotation(step.q_ref, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ground.normal()) *
                                       Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitZ()).toRotationMatrix());

@@ -27,7 +27,11 @@ class CommandLead {
   MpcCommand command(const MpcCommand& command);
   /// Command after smoothing.
   const MpcCommand& followed() const { return smooth_; }
-  /// Leads on to time `start` [s], and sets the references of a horizon that begins then.
+  /// Place (x, y) [m] and heading [rad] to which the commands have led.
+  Eigen::Vector3d pose() const { return {place_.x(), place_.y(), heading_}; }
+  /// Leads on to time `start` [s].
+  void advance(double start);
+  /// The same, and sets the references of a horizon that begins then.
   void lead(double start, const HorizonGrid& grid, const GroundPlane& ground, HorizonProgram& program);
   /// Stays near a robot that is elsewhere than led, `size` [m] large.
   void stay_near(const Eigen::VectorXd& q, double size);

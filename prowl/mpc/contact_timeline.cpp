@@ -5,8 +5,10 @@
 namespace prowl {
 namespace {
 
-constexpr std::size_t kMostSwings = 64;   // of a foot at a time; a horizon contains two or three
-constexpr double kRemembered = 1.0;       // [s]
+constexpr std::size_t kMostSwings = 64;  // of a foot at a time; a horizon contains two or three
+constexpr double kRemembered = 1.0;      // [s]
+/// A foot that has not landed when a plan is made does not carry at the start of that plan, for so long [s].
+constexpr double kSoon = 5e-3;
 constexpr double kShortestStance = 0.02;  // between two swings of a foot [s]
 
 }  // namespace
@@ -47,6 +49,14 @@ const ContactTimeline::Swing* ContactTimeline::swing(int foot, double t) const {
   return nullptr;
 }
 
+unsigned ContactTimeline::standing(double t) const {
+  unsigned bits = 0;
+  for (int f = 0; f < num_feet(); ++f) {
+    if (!swing(f, t)) bits |= 1U << f;
+  }
+  return bits;
+}
+
 const ContactTimeline::Swing* ContactTimeline::unfelt(int foot, double t) const {
   const Swing* latest = nullptr;
   for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
@@ -77,6 +87,10 @@ void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
   } else if (!touches && t < latest->planned + kMostLate) {
     latest->land = std::max(latest->land, t + soon);
   }
+}
+
+void ContactTimeline::feel(const std::vector<bool>& touches, double t, double delay) {
+  for (int f = 0; f < num_feet(); ++f) feel(f, touches[static_cast<std::size_t>(f)], t, delay + kSoon);
 }
 
 double ContactTimeline::lateness(int foot, double t) const {

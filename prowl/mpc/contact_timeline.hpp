@@ -35,6 +35,8 @@ class ContactTimeline {
   int num_feet() const { return static_cast<int>(swings_.size()); }
   /// The swing at time t [s], or nullptr: the foot stands. A foot stands at the moment of its landing.
   const Swing* swing(int foot, double t) const;
+  /// Feet that stand at time t [s]. Bit f: foot f.
+  unsigned standing(double t) const;
   /// The swing that should have ended at most kLandingTime before t [s], without a touch felt since; or nullptr.
   const Swing* unfelt(int foot, double t) const;
   /// Appends lift-offs and landings between both times [s], unordered.
@@ -42,6 +44,8 @@ class ContactTimeline {
   /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has
   /// landed. One that does not touch lands at t + `soon` [s] at the earliest, but at most kMostLate later than planned.
   void feel(int foot, bool touches, double t, double soon);
+  /// The same for all feet. What is planned at t acts `delay` [s] later.
+  void feel(const std::vector<bool>& touches, double t, double delay);
   /// Time by which the latest landing before t or the next one is late [s]; 0 if it is not.
   double lateness(int foot, double t) const;
 

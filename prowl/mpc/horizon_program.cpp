@@ -110,11 +110,7 @@ void HorizonProgram::make_sets(const MpcWeights& weights, double friction) {
   for (unsigned bits = 0; bits < num_sets(); ++bits) {
     ContactSet& set = sets_.emplace_back();
     Phase phase{.name = "step", .contacts = {}, .duration = {0.1, 0.1}};
-    for (std::size_t f = 0; f < feet_.size(); ++f) {
-      if (((bits >> f) & 1U) == 0) continue;
-      set.contacts.insert(set.contacts.end(), feet_[f].begin(), feet_[f].end());
-    }
-    std::ranges::sort(set.contacts);
+    set.contacts = standing_contacts(feet_, bits);
     for (const int contact : set.contacts) phase.contacts.push_back({contact, 0});
     problem.phases = {phase};
     set.discrete = std::make_unique<DiscreteProblem>(problem, Mesh{{PhaseMesh(1)}});

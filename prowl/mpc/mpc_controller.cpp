@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/error.hpp"
-#include "prowl/model/configuration.hpp"
-#include "prowl/model/so3.hpp"
 
 namespace prowl {
 namespace {
@@ -18,11 +15,8 @@ using Eigen::VectorXd;
 constexpr double kContactTime = 0.05, kLaterContactTime = 0.02;
 constexpr int kMostFailures = 5;       ///< in a row, before an update starts anew
 constexpr double kSettledShare = 0.5;  ///< of a step; with less, the next update starts anew
-/// A foot that has not landed when a plan is made does not carry at the start of that plan, for so long [s].
-constexpr double kSoon = 5e-3;
-constexpr double kPredictionStep = 2e-3;  ///< [s]
-constexpr double kGroundTime = 0.1;       ///< filter of height and slope of the ground [s]
-constexpr int kFirstIterations = 30;      ///< of the plan with which a controller begins
+constexpr double kGroundTime = 0.1;    ///< filter of height and slope of the ground [s]
+constexpr int kFirstIterations = 30;   ///< of the plan with which a controller begins
 
 }  // namespace
 
@@ -34,25 +28,24 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
       solver_(program_, options.barrier, options.iterations),
       timeline_(program_.num_feet(), t),
       grid_(options.steps, options.first_step, options.least_horizon),
-      plan_(robot_, options.steps),
-      previous_(robot_, options.steps),
+      plans_(robot_, MpcPlan(robot_, options.steps)),
+      prediction_(robot_, program_.feet()),
       terms_(robot_),
       ground_(static_cast<int>(robot.contacts().size()), robot.size()),
       lead_(program_.standing_posture(), q, t),
       bounds_(program_, options_) {
-  for (unsigned bits = 0; bits < program_.num_sets(); ++bits) {
-    dynamics_.push_back(std::make_unique<ForwardDynamics>(robot_, program_.contacts(bits), kContactRankThreshold));
-    dynamics_.back()->evaluate(q, VectorXd::Zero(robot.nv()), VectorXd::Zero(robot.nu()));  // sizes its work space
-  }
-  const StaticEquilibrium still = static_equilibrium(robot_, q, program_.contacts(standing_at(t)));
+  const MpcPlan::Step still = standing_step(robot_, program_.feet(), q);
   q_ = q_next_ = q;
   v_ = v_next_ = VectorXd::Zero(robot.nv());
   a_ = v_;
   tau_ = still.tau;
   grid_.lay(t, timeline_);
+  MpcPlan& plan = plans_.begin_next();
   for (int k = 0; k < options.steps; ++k) {
-    MpcPlan::Step& step = plan_.steps()[static_cast<std::size_t>(k)];
-    step = {grid_.time(k), grid_.step(k), standing_at(t), q, v_, a_, still.tau, still.force, step.gain};
+    MpcPlan::Step& step = plan.steps()[static_cast<std::size_t>(k)];
+    step = still;
+    step.start = grid_.time(k);
+    step.length = grid_.step(k);
     old_rows_.push_back(solver_.rows(k));
     old_multipliers_.push_back(program_.multipliers(k));
     old_lengths_.push_back(grid_.step(k));
@@ -60,7 +53,7 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
   program_.use_hessian(options.hessian);
   find_ground(q, t);
   bool solved = false;
-  for (int i = 0; i < kFirstIterations; ++i) solved = prepare(t) && plan(q, v, t);
+  for (int i = 0; i < kFirstIterations; ++i) solved = update(q, v, t);
   if (!solved) throw InputError(robot.name() + ": no plan holds the robot in its standing posture");
   counters_ = {};
 }
@@ -70,22 +63,9 @@ void MpcController::follow(const SteppingPattern& pattern) {
   grid_ = HorizonGrid(options_.steps, options_.first_step, std::max(options_.least_horizon, pattern.stride));
 }
 
-unsigned MpcController::standing_at(double t) const {
-  unsigned bits = 0;
-  for (int f = 0; f < program_.num_feet(); ++f) {
-    if (!timeline_.swing(f, t)) bits |= 1U << f;
-  }
-  return bits;
-}
-
 void MpcController::feel_contacts(const std::vector<bool>& touches, double t) {
-  const double soon = options_.delay + kSoon;
-  for (int f = 0; f < program_.num_feet(); ++f) timeline_.feel(f, touches[static_cast<std::size_t>(f)], t, soon);
+  timeline_.feel(touches, t, options_.delay);
 }
-
-void MpcController::drop_latest() { std::swap(plan_.steps(), previous_.steps()); }
-
-bool MpcController::update(const VectorXd& q, const VectorXd& v, double t) { return prepare(t) && plan(q, v, t); }
 
 bool MpcController::prepare(double t) {
   ++counters_.updates;
@@ -110,17 +90,18 @@ void MpcController::lay_horizon(double start) {
 /// dynamics of steps that end elsewhere.
 void MpcController::shift() {
   const int steps = options_.steps;
+  const MpcPlan& old_plan = plans_.latest();
   for (int k = 0; k < steps; ++k) {
     old_rows_[k] = solver_.rows(k);
     old_multipliers_[k] = program_.multipliers(k);
   }
-  const auto old_step = [&](double t) { return static_cast<int>(&plan_.step_at(t) - plan_.steps().data()); };
-  plan_.state(grid_.time(0), q_, v_);
+  const auto old_step = [&](double t) { return static_cast<int>(&old_plan.step_at(t) - old_plan.steps().data()); };
+  old_plan.state(grid_.time(0), q_, v_);
   for (int k = 0; k < steps; ++k) {
     const int from = old_step(grid_.middle(k));
-    plan_.state(grid_.time(k + 1), q_next_, v_next_);
+    old_plan.state(grid_.time(k + 1), q_next_, v_next_);
     a_ = (v_next_ - v_) / grid_.step(k);
-    plan_.mean_torques(grid_.time(k), grid_.time(k + 1), tau_);
+    old_plan.mean_torques(grid_.time(k), grid_.time(k + 1), tau_);
     program_.set_stage(k, q_, v_, a_, tau_);
     const double factor = grid_.step(k) / old_lengths_[static_cast<std::size_t>(from)];
     StageMultipliers& on = program_.multipliers(k);
@@ -131,7 +112,7 @@ void MpcController::shift() {
     solver_.rows(k).take_over(old_rows_[static_cast<std::size_t>(from)], factor);
     HorizonStep& step = program_.step(k);
     step.length = grid_.step(k);
-    step.standing = standing_at(grid_.middle(k));
+    step.standing = timeline_.standing(grid_.middle(k));
     step.contact_time = std::max(0.5 * grid_.step(k), k < HorizonBounds::kSoftSteps ? kContactTime : kLaterContactTime);
     std::swap(q_, q_next_);
     std::swap(v_, v_next_);
@@ -148,7 +129,7 @@ bool MpcController::plan(const VectorXd& q, const VectorXd& v, double t) {
   q_ = q;
   v_ = v;
   find_ground(q, t);
-  predict(q_, v_, t, horizon_start_);
+  prediction_.predict(plans_, timeline_, t, horizon_start_, q_, v_);
   lead_.stay_near(q_, robot_.size());
   if (!solver_.step(q_, v_)) {
     ++counters_.failed;
@@ -162,28 +143,6 @@ bool MpcController::plan(const VectorXd& q, const VectorXd& v, double t) {
   return true;
 }
 
-void MpcController::predict(VectorXd& q, VectorXd& v, double from, double to) {
-  while (to - from > 1e-9) {
-    const double dt = std::min(kPredictionStep, to - from);
-    torque(from, q, v, tau_);
-    ForwardDynamics& dynamics = *dynamics_[standing_at(from + 0.5 * dt)];
-    try {
-      dynamics.evaluate(q, v, tau_);
-      a_ = dynamics.acceleration();
-    } catch (const NumericalError&) {
-      a_.setZero();
-    }
-    q_next_ = q;
-    v_next_ = v + 0.5 * dt * a_;
-    const Eigen::Matrix3d rotation = base_rotation(q);
-    q.head<3>() += dt * (rotation * v_next_.head<3>());
-    set_base_rotation(q, rotation * so3::exp(dt * v_next_.segment<3>(3)));
-    q.tail(robot_.nu()) += dt * v_next_.tail(robot_.nu());
-    v += dt * a_;
-    from += dt;
-  }
-}
-
 /// What a failed update knows of the limits may be far off.
 void MpcController::restart() {
   ++counters_.restarted;
@@ -191,9 +150,9 @@ void MpcController::restart() {
 }
 
 void MpcController::read_plan() {
-  std::swap(plan_.steps(), previous_.steps());
+  MpcPlan& plan = plans_.begin_next();
   for (int k = 0; k < options_.steps; ++k) {
-    MpcPlan::Step& step = plan_.steps()[static_cast<std::size_t>(k)];
+    MpcPlan::Step& step = plan.steps()[static_cast<std::size_t>(k)];
     step.start = grid_.time(k);
     step.length = grid_.step(k);
     step.standing = program_.step(k).standing;
@@ -218,13 +177,7 @@ void MpcController::find_ground(const VectorXd& q, double t) {
 }
 
 void MpcController::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& tau) {
-  const MpcPlan& plan = t < plan_.start() && previous_.start() <= t ? previous_ : plan_;
-  if (t <= plan.end()) {
-    plan.torque(t, q, v, tau);
-    return;
-  }
-  ++counters_.damped;
-  damping_torques(robot_, q, v, tau);
+  if (!plans_.torque(t, q, v, tau)) ++counters_.damped;
 }
 
 }  // namespace prowl

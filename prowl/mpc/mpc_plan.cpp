@@ -10,16 +10,8 @@ namespace prowl {
 
 using Eigen::VectorXd;
 
-namespace {
-
-/// Feedback of a joint at most, as a share of its torque limit. Gains are those of the active limits: far from the
-/// plan, with other active limits, they may be ten times too large, and throw a robot over in 10 ms. The next plan
-/// answers.
-constexpr double kMostFeedback = 0.2;
-
-}  // namespace
-
-MpcPlan::MpcPlan(const RobotModel& robot, int steps) : robot_(robot), steps_(static_cast<std::size_t>(steps)) {
+MpcPlan::MpcPlan(const RobotModel& robot, int steps, double most_feedback)
+    : robot_(robot), most_feedback_(most_feedback), steps_(static_cast<std::size_t>(steps)) {
   const int nv = robot.nv(), nu = robot.nu();
   for (Step& step : steps_) {
     step.q = robot.nominal_configuration();
@@ -73,7 +65,7 @@ void MpcPlan::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& t
     deviation_.segment(6, nu) = q.tail(nu) - q_.tail(nu);
     deviation_.tail(nv) = v - v_;
     feedback_.noalias() = step.gain * deviation_;
-    const auto most = kMostFeedback * robot_.torque_limit();
+    const auto most = most_feedback_ * robot_.torque_limit();
     tau += feedback_.cwiseMin(most).cwiseMax(-most);
     if (!tau.allFinite()) tau = step.tau;
     clamp_torques(robot_, q, v, tau);

@@ -11,7 +11,8 @@ namespace prowl {
 ///
 ///   tau = tau_k + K_k (x (-) x*(t)),  within the torque limits of the robot
 ///
-/// The second part is at most a fifth of the torque limit of each joint.
+/// The second part is at most a share of the torque limit of each joint: gains are those of the active limits. Far from
+/// the plan, with other active limits, they may be ten times too large, and throw a robot over in 10 ms.
 /// x (-) x* is (base displacement, world [m]; rotation vector from R* to R [rad]; joints; velocities, as RobotModel).
 /// No function allocates but the constructor.
 class MpcPlan {
@@ -25,7 +26,8 @@ class MpcPlan {
     Eigen::MatrixXd gain;              ///< K, nu x 2 nv
   };
 
-  MpcPlan(const RobotModel& robot, int steps);
+  /// `most_feedback`: that share.
+  MpcPlan(const RobotModel& robot, int steps, double most_feedback = 0.2);
 
   std::vector<Step>& steps() { return steps_; }
   const std::vector<Step>& steps() const { return steps_; }
@@ -42,6 +44,7 @@ class MpcPlan {
 
  private:
   const RobotModel& robot_;
+  double most_feedback_;
   std::vector<Step> steps_;
   mutable Eigen::VectorXd q_, v_, deviation_, feedback_;
 };

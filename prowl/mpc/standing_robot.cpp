@@ -4,6 +4,7 @@
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/error.hpp"
 
 namespace prowl {
@@ -41,6 +42,29 @@ std::vector<std::vector<int>> contacts_of_feet(const RobotModel& robot) {
     }
   }
   return feet;
+}
+
+std::vector<int> standing_contacts(const std::vector<std::vector<int>>& feet, unsigned standing) {
+  std::vector<int> contacts;
+  for (std::size_t f = 0; f < feet.size(); ++f) {
+    if ((standing >> f & 1U) != 0) contacts.insert(contacts.end(), feet[f].begin(), feet[f].end());
+  }
+  std::ranges::sort(contacts);
+  return contacts;
+}
+
+MpcPlan::Step standing_step(const RobotModel& robot, const std::vector<std::vector<int>>& feet,
+                            const Eigen::VectorXd& q) {
+  const unsigned all = (1U << feet.size()) - 1U;
+  const StaticEquilibrium still = static_equilibrium(robot, q, standing_contacts(feet, all));
+  MpcPlan::Step step;
+  step.standing = all;
+  step.q = q;
+  step.v = step.a = Eigen::VectorXd::Zero(robot.nv());
+  step.tau = still.tau;
+  step.force = still.force;
+  step.gain = Eigen::MatrixXd::Zero(robot.nu(), 2 * robot.nv());
+  return step;
 }
 
 }  // namespace prowl

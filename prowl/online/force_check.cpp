@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "prowl/mpc/standing_robot.hpp"
+
 namespace prowl {
 
 ForceCheck::ForceCheck(const RobotModel& robot, const std::vector<std::vector<int>>& feet, double friction)
@@ -9,10 +11,7 @@ ForceCheck::ForceCheck(const RobotModel& robot, const std::vector<std::vector<in
 
 double ForceCheck::outside(const MpcPlan& plan, double t) {
   const MpcPlan::Step& step = plan.step_at(t);
-  std::vector<int> contacts;
-  for (std::size_t f = 0; f < feet_.size(); ++f) {
-    if (((step.standing >> f) & 1U) != 0) contacts.insert(contacts.end(), feet_[f].begin(), feet_[f].end());
-  }
+  const std::vector<int> contacts = standing_contacts(feet_, step.standing);
   if (contacts.empty()) return 0.0;
   ConstrainedDynamicsOracle& oracle = oracles_.try_emplace(step.standing, robot_, contacts).first->second;
   plan.state(t, q_, v_);

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
@@ -27,6 +29,7 @@ constexpr double kSwitchLoad = 0.05;
 constexpr std::size_t kMostNotes = 20;
 constexpr double kAfterPush = 0.5;      ///< plans so long after a push count as disturbed [s]
 constexpr double kBeyond = 1.0 + 1e-9;  ///< share of a limit that is beyond it
+constexpr double kRounding = 1e-9;      ///< of times [s]
 
 double thread_seconds() {
   timespec time{};
@@ -58,6 +61,14 @@ VectorXd on_ground(VectorXd q, const Surface& ground) {
   return q;
 }
 
+std::unique_ptr<OnlineController> make_controller(const RobotModel& robot, const OnlineOptions& options,
+                                                  const VectorXd& q) {
+  MpcOptions mpc = options.mpc;
+  mpc.delay = options.budget + options.simulation.delay;
+  if (options.planner) return std::make_unique<OutsideController>(robot, options.planner, mpc.delay, q, 0.0);
+  return std::make_unique<MpcController>(robot, mpc, q, VectorXd::Zero(robot.nv()), 0.0);
+}
+
 class Run {
  public:
   Run(const RobotModel& robot, const OnlineOptions& options)
@@ -68,17 +79,17 @@ class Run {
         standing_(standing_on_ground(robot)),
         ground_(ground_of(options)),
         start_(on_ground(standing_, ground_)),
-        mpc_(robot, with_delay(options), start_, VectorXd::Zero(robot.nv()), 0.0),
+        mpc_(make_controller(robot, options, start_)),
         physics_(robot, {ground_}, options.simulation.stepped_physics()),
         sensors_(robot.nu(), options.simulation.noise, options.simulation.noise_scale, options.simulation.seed),
         stand_{std::vector<bool>(robot.contacts().size(), true),
                std::vector<Eigen::Vector3d>(robot.contacts().size(), Eigen::Vector3d::UnitZ())},
         estimator_(robot, start_, VectorXd::Zero(robot.nv()), stand_,
                    estimator_noise(options.simulation.noise, options.simulation.noise_scale), kJointDensity),
-        touches_(mpc_.feet().size(), true),
+        touches_(mpc_->feet().size(), true),
         pushes_(options.simulation.pushes),
-        measures_(robot, mpc_.feet(), options.mpc.friction, options.duration, standing_.z()) {
-    mpc_.torque(0.0, start_, VectorXd::Zero(robot.nv()), tau_);
+        measures_(robot, mpc_->feet(), options.mpc.friction, options.duration, standing_.z()) {
+    mpc_->torque(0.0, start_, VectorXd::Zero(robot.nv()), tau_);
     actuators_.emplace(robot, period_ / substeps_, options.simulation.delay + options.simulation.unknown_delay,
                        options.simulation.bandwidth, tau_);
     for (const TimedCommand& timed : options.commands) {
@@ -91,7 +102,6 @@ class Run {
 
   OnlineResult operator()(const OnlineWatcher& watch) {
     const long ticks = std::lround(options_.duration / period_);
-    const long each = std::max(1L, std::lround(options_.period / period_));
     const double rate = options_.simulation.record_rate;
     const long record_each = rate > 0.0 ? std::max(1L, std::lround(1.0 / (rate * period_))) : 0;
     long tick = 0;
@@ -101,39 +111,33 @@ class Run {
       if (watch && !ask(watch, t)) break;
       sense(t);
       obey(t);
-      if (tick % each == 0) plan(t);
+      if (t >= next_plan_ - kRounding) plan(t);
       act(t);
       if (!advance(t)) result_.end = OnlineResult::End::diverged;
-      if (!measures_.add_state(t, physics_, mpc_.followed(), ground_) && result_.end == OnlineResult::End::finished)
+      if (!measures_.add_state(t, physics_, mpc_->followed(), ground_) && result_.end == OnlineResult::End::finished)
         result_.end = OnlineResult::End::fell;
     }
     result_.end_time = static_cast<double>(tick) * period_;
     result_.control_steps = tick;
-    result_.counters = mpc_.counters();
+    result_.counters = mpc_->counters();
     if (record_each > 0) result_.samples.push_back(sample(result_.end_time));
     measures_.finish(result_);
     return std::move(result_);
   }
 
  private:
-  static MpcOptions with_delay(const OnlineOptions& options) {
-    MpcOptions mpc = options.mpc;
-    mpc.delay = options.budget + options.simulation.delay;
-    return mpc;
-  }
-
   SteppingPattern pattern_of(const std::string& gait) const {
-    return stepping_pattern(robot_, mpc_.feet(), standing_.z(), gait);
+    return stepping_pattern(robot_, mpc_->feet(), standing_.z(), gait);
   }
-  void follow(const std::string& gait) { mpc_.follow(pattern_of(gait)); }
+  void follow(const std::string& gait) { mpc_->follow(pattern_of(gait)); }
 
   void sense(double t) {
     for (std::size_t f = 0; f < touches_.size(); ++f) {
       double load = 0.0;
-      for (const int contact : mpc_.feet()[f]) load += physics_.contacts()[static_cast<std::size_t>(contact)].load;
+      for (const int contact : mpc_->feet()[f]) load += physics_.contacts()[static_cast<std::size_t>(contact)].load;
       touches_[f] = t == 0.0 || load > kSwitchLoad * robot_.weight() / static_cast<double>(touches_.size());
-      const bool stands = touches_[f] && !mpc_.timeline().swing(static_cast<int>(f), t);
-      for (const int contact : mpc_.feet()[f]) stand_.in_contact[static_cast<std::size_t>(contact)] = stands;
+      const bool stands = touches_[f] && !mpc_->timeline().swing(static_cast<int>(f), t);
+      for (const int contact : mpc_->feet()[f]) stand_.in_contact[static_cast<std::size_t>(contact)] = stands;
     }
     const SensorReading reading = sensors_.read(physics_.q());
     if (options_.simulation.perfect_state) {
@@ -141,10 +145,10 @@ class Run {
     } else if (t > 0.0) {
       estimator_.update(period_, reading, pending_.front(), stand_);
     }
-    mpc_.feel_contacts(touches_, t);
+    mpc_->feel_contacts(touches_, t);
   }
 
-  OnlineSample sample(double t) const { return OnlineMeasures::sample(t, physics_, mpc_.followed()); }
+  OnlineSample sample(double t) const { return OnlineMeasures::sample(t, physics_, mpc_->followed()); }
 
   /// False if the watcher ends the run.
   bool ask(const OnlineWatcher& watch, double t) {
@@ -161,7 +165,7 @@ class Run {
       obey(t, options_.commands[next_command_++]);
   }
   void obey(double t, const TimedCommand& timed) {
-    const MpcCommand &asked = timed.command, kept = mpc_.command(asked);
+    const MpcCommand &asked = timed.command, kept = mpc_->command(asked);
     const auto text = [](const MpcCommand& c) {
       return fmt::format("{:.3g} m/s ahead, {:.3g} m/s left, {:.3g} rad/s, {:.3g} m up", c.forward, c.left, c.turn,
                          c.height);
@@ -181,22 +185,26 @@ class Run {
 
   void plan(double t) {
     const double began = thread_seconds(), wall_began = wall_seconds();
-    const bool is_ready = mpc_.prepare(t);
+    const bool is_ready = mpc_->prepare(t);
     const double prepared = thread_seconds();
-    const bool has_plan = is_ready && mpc_.plan(estimator_.q(), estimator_.v(), t);
+    const bool has_plan = is_ready && mpc_->plan(estimator_.q(), estimator_.v(), t);
     const double ended = thread_seconds();
     result_.walls.push_back(wall_seconds() - wall_began);
     result_.feedbacks.push_back(ended - prepared);
     const std::size_t index = result_.times.size();
-    const double seconds = index < options_.replayed_times.size() ? options_.replayed_times[index] : ended - began;
+    const double seconds =
+        index < options_.replayed_times.size() ? options_.replayed_times[index] : mpc_->computing_time(ended - began);
     result_.times.push_back(seconds);
+    const double period = options_.late == LatePlans::wait ? std::max(options_.period, seconds) : options_.period;
+    next_plan_ = t + period;
     if (!has_plan) return;
+    if (options_.late == LatePlans::wait) mpc_->act_from(t + seconds);
     if (options_.late == LatePlans::drop && seconds > options_.budget) {
-      mpc_.drop_latest();
+      mpc_->drop_latest();
       ++result_.dropped;
       return;
     }
-    measures_.add_plan(mpc_.latest(), options_.period, is_pushed(t));
+    measures_.add_plan(mpc_->latest(), period, is_pushed(t));
   }
 
   bool is_pushed(double t) const {
@@ -211,7 +219,7 @@ class Run {
     double acts = t;
     for (std::size_t i = 0; i + 1 < pending_.size(); ++i, acts += period_)
       estimator_.predict(period_, pending_[i], stand_, q_, v_);
-    mpc_.torque(acts, q_, v_, tau_);
+    mpc_->torque(acts, q_, v_, tau_);
     pending_.back() = tau_;
     command_ = tau_ + robot_.losses().torques(v_.tail(robot_.nu()));
     clamp_torques(robot_, q_, v_, command_);
@@ -242,7 +250,7 @@ class Run {
   VectorXd standing_;
   Surface ground_;
   VectorXd start_;
-  MpcController mpc_;
+  std::unique_ptr<OnlineController> mpc_;
   Physics physics_;
   Sensors sensors_;
   Stand stand_;
@@ -251,6 +259,7 @@ class Run {
   std::vector<bool> touches_;
   std::vector<VectorXd> pending_;  ///< torques that do not act yet, oldest first; the first acts until the next reading
   std::size_t next_command_ = 0;
+  double next_plan_ = 0.0;  ///< [s]
   VectorXd q_, v_, tau_, command_, q_before_, v_before_;
   std::vector<Push> pushes_;  ///< of the options, and of the watcher
   OnlineMeasures measures_;
@@ -258,6 +267,15 @@ class Run {
 };
 
 }  // namespace
+
+LatePlans late_plans_named(const std::string& name) {
+  const std::pair<const char*, LatePlans> known[] = {
+      {"act", LatePlans::act}, {"drop", LatePlans::drop}, {"wait", LatePlans::wait}};
+  for (const auto& [known_name, late] : known) {
+    if (name == known_name) return late;
+  }
+  throw InputError(fmt::format("late: '{}' is not allowed; need act, drop or wait", name));
+}
 
 Surface ground_of(const OnlineOptions& options) {
   const SimulationOptions& simulation = options.simulation;

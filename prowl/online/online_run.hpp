@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "prowl/online/online_result.hpp"
+#include "prowl/online/outside_controller.hpp"
 
 namespace prowl {
 
@@ -20,7 +21,11 @@ struct TimedCommand {
 enum class LatePlans {
   act,   ///< it acts at the end of the budget all the same: results do not depend on the machine
   drop,  ///< it is lost
+  wait,  ///< it acts as soon as it is ready; the next state is measured then
 };
+
+/// "act", "drop" or "wait"; throws InputError for other names.
+LatePlans late_plans_named(const std::string& name);
 
 struct OnlineOptions {
   MpcOptions mpc;  ///< its delay is set from those below
@@ -32,6 +37,7 @@ struct OnlineOptions {
   LatePlans late = LatePlans::act;
   /// Computing times of plans [s], in order, in place of those measured: repeats a run with LatePlans::drop.
   std::vector<double> replayed_times = {};
+  Planner planner = {};  ///< in the place of an MpcController, if it is set
   /// As in a simulation of a plan; `physics.friction` is that of the ground, `ground.tilt` an unknown slope, `pushes`
   /// the kicks. Not used: open_loop, start.
   SimulationOptions simulation;
@@ -50,9 +56,9 @@ using OnlineWatcher = std::function<void(OnlineMoment&)>;
 /// The ground of a run as it is: its friction, height and slope.
 Surface ground_of(const OnlineOptions& options);
 
-/// Runs a robot on flat ground under an MpcController in MuJoCo: sensors with noise, contact switches in the feet,
-/// delay, state estimator. It begins standing. `watch` is called at every control step; it may be empty.
-/// Throws InputError for a gait that the robot cannot do, and for options out of range.
+/// Runs a robot on flat ground under an MpcController, or a planner of the user's own, in MuJoCo: sensors with noise,
+/// contact switches in the feet, delay, state estimator. It begins standing. `watch` is called at every control step;
+/// it may be empty. Throws InputError for a gait that the robot cannot do, and for options out of range.
 OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options, const OnlineWatcher& watch = {});
 
 }  // namespace prowl

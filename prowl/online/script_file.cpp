@@ -100,4 +100,10 @@ Script read_script(const SourceText& source) {
   });
 }
 
+void add_script(const Script& script, OnlineOptions& options) {
+  std::vector<Push>& pushes = options.simulation.pushes;
+  options.commands.insert(options.commands.end(), script.commands.begin(), script.commands.end());
+  pushes.insert(pushes.end(), script.pushes.begin(), script.pushes.end());
+}
+
 }  // namespace prowl

@@ -15,6 +15,9 @@ struct Script {
   std::vector<Push> pushes;
 };
 
+/// Adds what a script asks for to options.
+void add_script(const Script& script, OnlineOptions& options);
+
 /// Reads a script (docs/mpc.md). Throws InputError "file:line:column: key: ..." for all mistakes.
 Script read_script(const SourceText& source);
 

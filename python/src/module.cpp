@@ -21,6 +21,7 @@ NB_MODULE(_prowl, module) {
   bind_tube(module);
   bind_simulation(module);
   bind_sweep(module);
+  bind_planner(module);
   bind_online(module);
   bind_page(module);
   bind_solve(module);

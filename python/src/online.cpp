@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nanobind/eigen/dense.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -10,12 +11,14 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "module_files.hpp"
+#include "planner.hpp"
 #include "prowl/error.hpp"
 #include "prowl/mpc/mpc_controller.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "prowl/online/online_json.hpp"
 #include "prowl/online/online_run.hpp"
 #include "prowl/online/random_events.hpp"
+#include "prowl/online/script_file.hpp"
 #include "prowl/simulation/collision_shapes.hpp"
 #include "pushes.hpp"
 #include "screen/online_summary.hpp"
@@ -121,12 +124,15 @@ struct OnlineObject {
 };
 
 std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& gait,
-                                  const std::array<double, 3>& command, double duration,
+                                  const std::array<double, 3>& command,
+                                  const std::optional<std::filesystem::path>& script, double duration,
                                   const std::vector<PushArgument>& pushes, double kicks, double random_commands,
                                   double period, double budget, double delay, std::optional<double> friction,
-                                  double mass, double noise, bool perfect_state, std::uint64_t seed,
-                                  double record_rate) {
+                                  double mass, double noise, bool perfect_state, std::uint64_t seed, double record_rate,
+                                  const std::optional<nb::callable>& planner, const std::string& late) {
   OnlineOptions options;
+  if (planner) options.planner = planner_of(robot, *planner);
+  options.late = late_plans_named(late);
   options.gait = gait;
   options.duration = duration;
   options.period = period;
@@ -141,7 +147,9 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
   options.simulation.record_rate = record_rate;
   options.simulation.pushes = pushes_of(pushes, Push{}.duration);
   if (kicks > 0.0) add_kicks(robot, kicks, options);
-  if (random_commands > 0.0) {
+  if (script) {
+    add_script(read_script(read_text_file(script->string())), options);
+  } else if (random_commands > 0.0) {
     add_random_commands(random_commands, options);
   } else {
     options.commands.push_back({0.0, {command[0], command[1], command[2], 0.0}, {}});
@@ -234,19 +242,24 @@ void bind_online(nb::module_& module) {
                            o.result.success() ? "success" : o.result.failures.front(), o.result.end_time);
       });
   const OnlineOptions defaults;
-  module.def("run_online", &run, nb::arg("robot"), nb::kw_only(), nb::arg("gait") = defaults.gait,
-             nb::arg("command") = std::array<double, 3>{0.0, 0.0, 0.0}, nb::arg("duration") = defaults.duration,
-             nb::arg("pushes") = std::vector<PushArgument>{}, nb::arg("kicks") = 0.0, nb::arg("random_commands") = 0.0,
-             nb::arg("period") = defaults.period, nb::arg("budget") = defaults.budget,
-             nb::arg("delay") = defaults.simulation.delay, nb::arg("friction") = nb::none(),
-             nb::arg("mass") = defaults.simulation.physics.mass_scale,
-             nb::arg("noise") = defaults.simulation.noise_scale, nb::arg("perfect_state") = false,
-             nb::arg("seed") = defaults.simulation.seed, nb::arg("record_rate") = 100.0,
-             "Runs a robot under online control in MuJoCo, like `prowl mpc`. Deterministic.\n\n"
-             "command: velocity ahead and to the left [m/s], turn rate [rad/s]. pushes: (time [s], impulse [N s] in\n"
-             "world x, y, z) on the base, each 0.1 s long. kicks: one every 2 s in a random direction, impulse over\n"
-             "mass [m/s]. random_commands: largest random velocity and turn rate, in place of command. budget: from a\n"
-             "measured state until its plan acts [s]. friction, mass: of the simulated world, as in simulate().");
+  module.def(
+      "run_online", &run, nb::arg("robot"), nb::kw_only(), nb::arg("gait") = defaults.gait,
+      nb::arg("command") = std::array<double, 3>{0.0, 0.0, 0.0}, nb::arg("script") = nb::none(),
+      nb::arg("duration") = defaults.duration, nb::arg("pushes") = std::vector<PushArgument>{}, nb::arg("kicks") = 0.0,
+      nb::arg("random_commands") = 0.0, nb::arg("period") = defaults.period, nb::arg("budget") = defaults.budget,
+      nb::arg("delay") = defaults.simulation.delay, nb::arg("friction") = nb::none(),
+      nb::arg("mass") = defaults.simulation.physics.mass_scale, nb::arg("noise") = defaults.simulation.noise_scale,
+      nb::arg("perfect_state") = false, nb::arg("seed") = defaults.simulation.seed, nb::arg("record_rate") = 100.0,
+      nb::arg("planner") = nb::none(), nb::arg("late") = "act",
+      "Runs a robot under online control in MuJoCo, like `prowl mpc`. Deterministic.\n\n"
+      "command: velocity ahead and to the left [m/s], turn rate [rad/s]. script: a file with commands, gaits and\n"
+      "pushes (docs/mpc.md#a-script), in place of command. pushes: (time [s], impulse [N s] in\n"
+      "world x, y, z) on the base, each 0.1 s long. kicks: one every 2 s in a random direction, impulse over\n"
+      "mass [m/s]. random_commands: largest random velocity and turn rate, in place of command. budget: from a\n"
+      "measured state until its plan acts [s]. friction, mass: of the simulated world, as in simulate().\n\n"
+      "planner: a function MotionRequest -> MotionSteps or None, in the place of Prowl's controller. late: what\n"
+      "becomes of plans that take longer than the budget. \"act\": they act at its end all the same; \"drop\":\n"
+      "they are lost; \"wait\": they act when they are ready, and the next state is measured then.");
 }
 
 }  // namespace prowl::python

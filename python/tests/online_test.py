@@ -63,3 +63,68 @@ def test_bad_input(hyq):
         controller.update(0.0, controller.standing, np.zeros(18), [True])
     assert not controller.update(0.0, np.full(19, np.nan), np.zeros(18))
     assert np.isfinite(controller.torque(0.0, np.full(19, np.nan), np.zeros(18))).all()
+
+
+def test_a_planner_of_ones_own(hyq):
+    """A planner that asks Prowl's controller: stands as that does, and is told what it was."""
+    controller = prowl.Controller(hyq, "stand", delay=0.0)
+    requests = []
+
+    def plan(request):
+        requests.append(request)
+        q, v = np.array(request.q), np.array(request.v)
+        controller.update(request.start, q, v, [True] * 4)
+        t = request.start + np.array([0.0, 0.05])
+        gains = np.zeros((1, hyq.nu, 2 * hyq.nv))
+        gains[0, :, 6 : hyq.nv] = -400.0 * np.eye(hyq.nu)
+        gains[0, :, hyq.nv + 6 :] = -15.0 * np.eye(hyq.nu)
+        states = np.tile(controller.standing, (2, 1)), np.zeros((2, hyq.nv))
+        tau = controller.torque(request.start, controller.standing, np.zeros(hyq.nv))
+        return prowl.MotionSteps(t, *states, tau[None], gains, seconds=0.02)
+
+    run = prowl.run_online(hyq, gait="stand", duration=1.0, planner=plan, late="wait")
+    assert run.success and len(requests) == 50 and (run.plan_times == 0.02).all()
+    first = requests[0]
+    assert first.time == 0.0 and first.start == pytest.approx(0.012) and first.swing(0, 1.0) is None
+    assert first.q.shape == (hyq.nq,) and len(first.command) == 4 and len(first.pose) == 3
+    with pytest.raises(prowl.InputError, match="need 0 to 3"):
+        first.swing(4, 0.0)
+
+
+def test_bad_planners(hyq):
+    def run(planner):
+        prowl.run_online(hyq, duration=0.1, planner=planner)
+
+    def fails(request):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        run(fails)
+    with pytest.raises(prowl.InputError, match="neither"):
+        run(lambda request: 3)
+    wrong = prowl.MotionSteps(
+        np.array([0.0, 1.0]), np.zeros((2, 8)), np.zeros((2, 7)), np.zeros((1, 1)), np.zeros((1, 1, 14))
+    )
+    with pytest.raises(prowl.InputError, match="7 numbers a row"):
+        run(lambda request: wrong)
+    with pytest.raises(prowl.InputError, match="tau is 2 x 1; need 1 x 1"):
+        prowl.MotionSteps(
+            np.array([0.0, 1.0]), np.zeros((2, 8)), np.zeros((2, 7)), np.zeros((2, 1)), np.zeros((1, 1, 14))
+        )
+    with pytest.raises(prowl.InputError, match="late"):
+        prowl.run_online(hyq, duration=0.1, late="never")
+    swings = []
+    prowl.run_online(hyq, duration=0.05, planner=lambda request: swings.append(request.swing(0, 0.9)))
+    assert swings[0] is not None and swings[0][1] > swings[0][0] > 0.5
+
+
+def test_a_script(hyq, tmp_path):
+    file = tmp_path / "script.toml"
+    file.write_text(
+        "[[command]]\ntime_s = 0.2\nvelocity_mps = [0.3, 0.0]\n\n[[command]]\ntime_s = 1.0\nvelocity_mps = [0.0, 0.1]\n"
+    )
+    run = prowl.run_online(hyq, script=file, duration=2.0)
+    assert run.success and run.commanded[90, 0] > 0.2 and run.commanded[-1, 1] == pytest.approx(0.1)
+    file.write_text("[[command]]\nwhen = 1.0\n")
+    with pytest.raises(prowl.InputError, match="when"):
+        prowl.run_online(hyq, script=file)

@@ -1,0 +1,64 @@
+#include "prowl/mpc/latest_plans.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/robots.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::VectorXd;
+
+struct Plans {
+  RobotModel robot{test::hyq_description()};
+  LatestPlans plans{robot, MpcPlan(robot, 1)};
+  VectorXd q = robot.nominal_configuration(), v = VectorXd::Zero(robot.nv()), tau = VectorXd::Zero(robot.nu());
+
+  Plans() { add(0.0, 1.0); }
+  /// A plan that begins at `start`, takes 0.1 s and asks each joint for a torque of `tau`.
+  void add(double start, double of_joints) {
+    MpcPlan::Step& step = plans.begin_next().steps().front();
+    step.start = start;
+    step.length = 0.1;
+    step.tau.setConstant(of_joints);
+  }
+  double torque(double t) {
+    plans.torque(t, q, v, tau);
+    return tau(0);
+  }
+};
+
+TEST(LatestPlans, TheOneBeforeGoesOnUntilTheLatestBegins) {
+  Plans two;
+  two.add(0.05, 2.0);
+  EXPECT_EQ(two.torque(0.04), 1.0);
+  EXPECT_EQ(two.torque(0.05), 2.0);
+}
+
+TEST(LatestPlans, APlanActsWhenItIsReady) {
+  Plans two;
+  two.add(0.05, 2.0);
+  two.plans.act_from(0.07);
+  EXPECT_EQ(two.torque(0.06), 1.0);
+  EXPECT_EQ(two.torque(0.07), 2.0);
+  two.add(0.08, 3.0);
+  EXPECT_EQ(two.torque(0.08), 3.0) << "only the latest had to wait";
+}
+
+TEST(LatestPlans, ADroppedPlanNeverActs) {
+  Plans two;
+  two.add(0.05, 2.0);
+  two.plans.drop_latest();
+  EXPECT_EQ(two.torque(0.06), 1.0);
+  EXPECT_EQ(two.plans.latest().start(), 0.0);
+}
+
+TEST(LatestPlans, DampsJointsAfterTheEnd) {
+  Plans one;
+  one.v.setOnes();
+  EXPECT_FALSE(one.plans.torque(0.5, one.q, one.v, one.tau));
+  EXPECT_TRUE((one.tau.array() <= 0.0).all());
+}
+
+}  // namespace
+}  // namespace prowl
