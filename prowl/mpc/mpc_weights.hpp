@@ -6,14 +6,15 @@ namespace prowl {
 /// its weight m g, times by sqrt(l / g), so that they serve robots of any size.
 struct MpcWeights {
   // Of the running cost.
-  double place = 2.0;      ///< base, horizontal, from where the command leads
-  double height = 20.0;    ///< base
-  double tilt = 20.0;      ///< roll and pitch
-  double heading = 10.0;   ///< yaw
-  double posture = 0.5;    ///< joints from the standing posture
-  double velocity = 15.0;  ///< base, from the command
-  double climb = 15.0;     ///< base, vertical velocity
-  double turning = 3.0;    ///< base, angular velocity from the command
+  double place = 2.0;             ///< base, horizontal, from where the command leads
+  double height = 20.0;           ///< base
+  double tilt = 20.0;             ///< roll and pitch
+  double heading = 10.0;          ///< yaw
+  double posture = 0.5;           ///< joints from the standing posture
+  double posture_of_biped = 5.0;  ///< the same for a robot on two feet, whose legs would cross
+  double velocity = 15.0;         ///< base, from the command
+  double climb = 15.0;            ///< base, vertical velocity
+  double turning = 3.0;           ///< base, angular velocity from the command
   double joint_rate = 0.01;
   double acceleration = 1e-3;  ///< of base and joints
   double torque = 0.05;

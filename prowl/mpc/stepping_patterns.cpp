@@ -20,7 +20,7 @@ struct OnlineGait {
   double stride, duty_factor;
 };
 constexpr OnlineGait kGaits[] = {{"trot", 2.2, 0.6}, {"walk", 4.0, 0.77}, {"pace", 2.2, 0.6}};
-constexpr OnlineGait kBipedWalk = {"walk", 3.2, 0.6};
+constexpr OnlineGait kBipedWalk = {"walk", 2.6, 0.6};
 
 }  // namespace
 
