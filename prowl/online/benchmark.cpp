@@ -19,8 +19,8 @@ constexpr double kOneKick = 6.0, kShort = 20.0, kLong = 60.0, kTicks = 1000.0, k
 constexpr int kFewSeeds = 50, kManySeeds = 200;
 constexpr double kPayload = 0.2;  ///< of the robot's mass
 constexpr double kSlippery = 0.4;
-constexpr double kSlope = 10.0;                                       // [degrees]
-constexpr double kFirstKick = 0.2, kLastKick = 1.2, kKickStep = 0.2;  // of the curve [m/s]
+constexpr double kSlope = 10.0;                         // [degrees]
+constexpr double kCurve[] = {0.2, 0.4, 0.6, 0.8, 1.2};  ///< kicks [m/s]; kicks_1.0 is of the curve, too
 
 class Rows {
  public:
@@ -82,7 +82,7 @@ std::vector<BenchmarkRow> benchmark_rows(const RobotModel& robot, const OnlineOp
   rows.add_kicks("kicks_1.0", 1.0, kShort, kFewSeeds, Events::kicks);
   for (const double kick : {0.5, 1.0})
     rows.add_kicks(fmt::format("one_kick_{:.1f}", kick), kick, kOneKick, kFewSeeds, Events::one_kick);
-  for (double kick = kFirstKick; kick < kLastKick + 0.5 * kKickStep; kick += kKickStep)
+  for (const double kick : kCurve)
     rows.add_kicks(fmt::format("curve_{:.1f}", kick), kick, kShort, kFewSeeds, Events::kicks);
 
   BenchmarkRow& loaded =
