@@ -17,6 +17,8 @@ if(PROWL_BUILD_CLI AND PROWL_BUILD_PYTHON)
   add_test(NAME scripts/crocoddyl_tracker
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/crocoddyl_tracker_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
   set_tests_properties(scripts/crocoddyl_tracker PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+  add_test(NAME scripts/baselines COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/baselines_test.py)
+  set_tests_properties(scripts/baselines PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 endif()
 if(PROWL_BUILD_CLI)
   add_test(NAME scripts/paper COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/paper_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)

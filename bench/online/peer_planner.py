@@ -1,0 +1,58 @@
+"""A peer's solver in the place of Prowl's controller, in a process and an environment of its own."""
+
+import pathlib
+import pickle
+import subprocess
+
+import numpy as np
+
+import prowl
+from peers.environment import ENVIRONMENT, ROOT, variables
+
+STEP, NODES = 0.01, 40  # of peers/shooting_mpc.py
+
+
+class PeerPlanner:
+    """For prowl.run_online(planner=...). `solver`: "boxfddp" or "sqp"; `iterations`: at most, of a plan."""
+
+    def __init__(self, robot: prowl.Robot, robot_file: pathlib.Path, solver: str, iterations: int) -> None:
+        module = [ENVIRONMENT / "bin/python", "-m", "peers.shooting_mpc", robot_file, solver, str(iterations)]
+        self.process = subprocess.Popen(
+            module, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=variables(), cwd=ROOT / "bench"
+        )
+        self.seconds: list[float] = []
+        standing = prowl.Controller(robot, "stand").standing
+        self._send({"joints": robot.joint_names, "standing": np.array(standing)})
+
+    def _send(self, message: dict) -> None:
+        pickle.dump(message, self.process.stdin)
+        self.process.stdin.flush()
+
+    def __call__(self, request: prowl.MotionRequest) -> prowl.MotionSteps:
+        times = request.start + STEP * np.arange(NODES + 1)
+        swings = [[request.swing(foot, t) for t in times] for foot in range(4)]
+        self._send(
+            {
+                "start": request.start,
+                "q": np.array(request.q),
+                "v": np.array(request.v),
+                "command": np.array(request.command),
+                "pose": np.array(request.pose),
+                "swings": swings,
+                "stance": self._stance(request, swings),
+            }
+        )
+        answer = pickle.load(self.process.stdout)
+        self.seconds.append(answer["seconds"])
+        return prowl.MotionSteps(**answer)
+
+    @staticmethod
+    def _stance(request: prowl.MotionRequest, swings: list) -> float:
+        """Time that a foot stands between two swings [s]."""
+        known = sorted({swing for foot in swings for swing in foot if swing is not None})
+        return known[0][1] - known[0][0] if known else 0.0
+
+    def close(self) -> None:
+        self.process.stdin.close()
+        self.process.wait()
+        self.process.stdout.close()
