@@ -14,6 +14,7 @@
 #include "cli/verbs/commands.hpp"
 #include "cli/verbs/mpc_benchmark.hpp"
 #include "cli/verbs/mpc_view.hpp"
+#include "cli/verbs/python_verb.hpp"
 #include "cli/verbs/report_page.hpp"
 #include "prowl/files/atomic_folder.hpp"
 #include "prowl/files/csv_table.hpp"
@@ -46,7 +47,8 @@ struct MpcArguments {
   double kicks = 0.0;            ///< [m/s]
   double random_commands = 0.0;  ///< [m/s] and [rad/s]
   std::string script, save_times, replay_times, page;
-  bool view = false;
+  bool view = false, foxglove = false;
+  std::string python = default_python();  ///< for --foxglove
   std::uint16_t port = 0;
   MpcBenchmark benchmark;
   double slope = 0.0;  ///< [degrees]
@@ -170,11 +172,20 @@ void add_page_options(CLI::App& verb, MpcArguments& arguments) {
                                           "Run at the pace of the clock; a page in the browser takes commands and "
                                           "kicks");
   view->group(kPages);
-  verb.add_option("--port", arguments.port, "Port of 127.0.0.1 for --view; default: any free one")
+  CLI::Option* const foxglove =
+      verb.add_flag("--foxglove", arguments.foxglove,
+                    "Run at the pace of the clock; Foxglove shows the robot, and its panel Teleop commands it");
+  foxglove->excludes(view)->group(kPages);
+  for (const char* const other : {"--save-times", "--replay-times", "--push", "--slope"}) foxglove->excludes(other);
+  verb.add_option("--port", arguments.port,
+                  "Port of 127.0.0.1 for --view, default: any free one; or for --foxglove, default: 8765")
       ->type_name("N")
-      ->needs(view)
       ->group(kPages);
-  verb.add_option("--page", arguments.page, "Write a page that replays the run")->type_name("FILE")->group(kPages);
+  add_python(verb, arguments.python, "numpy, foxglove-sdk and mcap-ros2-support, for --foxglove");
+  verb.add_option("--page", arguments.page, "Write a page that replays the run")
+      ->type_name("FILE")
+      ->excludes(foxglove)
+      ->group(kPages);
 }
 
 void add_benchmark_options(CLI::App& verb, MpcArguments& arguments) {
@@ -183,7 +194,12 @@ void add_benchmark_options(CLI::App& verb, MpcArguments& arguments) {
       verb.add_option("--benchmark", benchmark.file,
                       "Run the tables of docs/mpc.md, and keep all runs in this file; those in it are not run again")
           ->type_name("FILE");
-  file->group(kBenchmark)->excludes("--command")->excludes("--view")->excludes("--page")->excludes("--duration");
+  file->group(kBenchmark)
+      ->excludes("--command")
+      ->excludes("--view")
+      ->excludes("--page")
+      ->excludes("--foxglove")
+      ->excludes("--duration");
   const std::vector<CLI::Option*> all = {
       verb.add_option("--rows", benchmark.rows, "Only these rows, with commas between; default: all")
           ->delimiter(',')
@@ -263,7 +279,16 @@ void add_mpc_command(CLI::App& app, int& status) {
       "prowl plan.");
   verb->callback([arguments, verb, &status] {
     if (arguments->view && verb->get_option("--duration")->count() == 0) arguments->options.duration = kViewed;
-    status = run_mpc(*arguments);
+    const bool is_served = arguments->view || arguments->foxglove;
+    if (!is_served && verb->get_option("--port")->count() > 0) throw InputError("--port needs --view or --foxglove");
+    if (arguments->foxglove) {
+      PythonVerb shown;
+      shown.python = arguments->python;
+      shown.json = arguments->json;
+      status = run_python_verb(*verb, shown);
+    } else {
+      status = run_mpc(*arguments);
+    }
   });
 }
 

@@ -26,6 +26,7 @@ if _util.find_spec("prowl._prowl") is None:
 from ._batch import batch, read_library
 from ._exports import Export, export
 from ._figures import Figures, figures
+from ._foxglove import Foxglove
 from ._files import parse_robot, parse_task, read_robot, read_task, shipped_robots, shipped_tasks
 from ._prowl import (
     Certificate,
@@ -49,6 +50,7 @@ from ._prowl import (
     MotionRequest,
     MotionSteps,
     NumericalError,
+    OnlineMoment,
     OnlineRun,
     Phase,
     Plan,
@@ -96,6 +98,7 @@ __all__ = [
     "Export",
     "Figures",
     "FileError",
+    "Foxglove",
     "InputError",
     "Interrupted",
     "Iterate",
@@ -106,6 +109,7 @@ __all__ = [
     "MotionRequest",
     "MotionSteps",
     "NumericalError",
+    "OnlineMoment",
     "OnlineRun",
     "Phase",
     "Plan",

@@ -1,4 +1,4 @@
-"""Verbs of the command that this package implements. `prowl figures`, `export`, `batch`, `library` and `retarget` run this file
+"""Verbs of the command that this package implements. `prowl figures`, `export`, `batch`, `library`, `retarget` and `mpc --foxglove` run this file
 (cli/verbs/python_verb.cpp):
 
     _verb.py VERB OPTIONS
@@ -25,7 +25,11 @@ LIBRARIES = {  # of each verb: what it needs, and the extra of the wheel that br
     "batch": ("dask, distributed and pyarrow", "batch"),
     "library": ("pyarrow", "batch"),
     "retarget": ("numpy", "notebook"),
+    "mpc": ("numpy, foxglove-sdk and mcap-ros2-support", "foxglove"),
 }
+
+
+SHOWN = 600.0  # duration of a live run without --duration [s]
 
 
 def _say(**line: object) -> None:
@@ -210,6 +214,32 @@ def _retarget(options: argparse.Namespace) -> None:
     )
 
 
+def _mpc(options: argparse.Namespace) -> None:
+    """With --foxglove; else the command itself runs."""
+    import prowl
+
+    robot = prowl.read_robot(options.directory, package_dirs=options.package_dir)
+    given = {
+        name: value
+        for name in ("gait", "script", "late", "kicks", "random_commands", "friction", "mass", "noise", "seed")
+        if (value := getattr(options, name)) is not None
+    }
+    given |= {
+        name: 1e-3 * value for name in ("period", "budget", "delay") if (value := getattr(options, name)) is not None
+    }
+    with prowl.Foxglove(robot, options.port) as server:
+        _say(message=f"{server.url}: open it in Foxglove as a Foxglove WebSocket. Ctrl-C ends the run.")
+        run = prowl.run_online(
+            robot,
+            command=tuple(options.command or (0.0, 0.0, 0.0)),
+            duration=options.duration,
+            perfect_state=options.perfect_state,
+            watch=server,
+            **given,
+        )
+    _say(result={**json.loads(run.to_json()), "exit_status": 0 if run.success else 8}, text=run.summary())
+
+
 def _options() -> argparse.Namespace:
     """Options, checked and explained by the command."""
     parser = argparse.ArgumentParser()
@@ -232,6 +262,16 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--robot")
     parser.add_argument("--fps", type=float)
     parser.add_argument("--slowest", type=float, default=1.0)
+    for name in ("gait", "script", "late"):
+        parser.add_argument(f"--{name}")
+    for name in ("period", "budget", "delay", "kicks", "random-commands", "friction", "mass", "noise"):
+        parser.add_argument(f"--{name}", type=float)
+    parser.add_argument("--command", type=float, action="append")
+    parser.add_argument("--duration", type=float, default=SHOWN)
+    parser.add_argument("--seed", type=int)
+    parser.add_argument("--port", type=int, default=8765)
+    for name in ("foxglove", "perfect-state"):
+        parser.add_argument(f"--{name}", action="store_true")
     return parser.parse_args()
 
 
@@ -248,7 +288,14 @@ def _run(options: argparse.Namespace) -> None:
         OSError: "files",
     }
     try:
-        verbs = {"figures": _figures, "export": _export, "batch": _batch, "library": _library, "retarget": _retarget}
+        verbs = {
+            "figures": _figures,
+            "export": _export,
+            "batch": _batch,
+            "library": _library,
+            "retarget": _retarget,
+            "mpc": _mpc,
+        }
         verbs[options.verb](options)
     except tuple(kinds) as error:
         if isinstance(error.__cause__, ModuleNotFoundError):

@@ -19,6 +19,7 @@ void bind_tube(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
 void bind_sweep(nanobind::module_& module);
 void bind_planner(nanobind::module_& module);
+void bind_watcher(nanobind::module_& module);
 void bind_online(nanobind::module_& module);
 void bind_page(nanobind::module_& module);
 void bind_solve(nanobind::module_& module);

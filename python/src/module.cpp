@@ -22,6 +22,7 @@ NB_MODULE(_prowl, module) {
   bind_simulation(module);
   bind_sweep(module);
   bind_planner(module);
+  bind_watcher(module);
   bind_online(module);
   bind_page(module);
   bind_solve(module);

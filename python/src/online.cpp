@@ -23,6 +23,7 @@
 #include "pushes.hpp"
 #include "screen/online_summary.hpp"
 #include "signals.hpp"
+#include "watcher.hpp"
 
 namespace prowl::python {
 namespace {
@@ -129,7 +130,8 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
                                   const std::vector<PushArgument>& pushes, double kicks, double random_commands,
                                   double period, double budget, double delay, std::optional<double> friction,
                                   double mass, double noise, bool perfect_state, std::uint64_t seed, double record_rate,
-                                  const std::optional<nb::callable>& planner, const std::string& late) {
+                                  const std::optional<nb::callable>& planner, const std::string& late,
+                                  const std::optional<nb::callable>& watch) {
   OnlineOptions options;
   if (planner) options.planner = planner_of(robot, *planner);
   options.late = late_plans_named(late);
@@ -151,12 +153,16 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
     add_script(read_script(read_text_file(script->string())), options);
   } else if (random_commands > 0.0) {
     add_random_commands(random_commands, options);
-  } else {
+  } else if (command != std::array<double, 3>{}) {  // else a watcher may ask for one at the start
     options.commands.push_back({0.0, {command[0], command[1], command[2], 0.0}, {}});
   }
+  const OnlineWatcher watcher = watch ? watcher_of(*watch, record_rate) : OnlineWatcher();
   constexpr int kTicks = 50;
   const nb::gil_scoped_release others_may_run;
-  OnlineResult result = run_online(robot, options, [check = SignalCheck(kTicks)](OnlineMoment&) mutable { check(); });
+  OnlineResult result = run_online(robot, options, [&, check = SignalCheck(kTicks)](OnlineMoment& moment) mutable {
+    check();
+    if (watcher) watcher(moment);
+  });
   return std::make_shared<OnlineObject>(robot, std::move(options), std::move(result));
 }
 
@@ -250,7 +256,7 @@ void bind_online(nb::module_& module) {
       nb::arg("delay") = defaults.simulation.delay, nb::arg("friction") = nb::none(),
       nb::arg("mass") = defaults.simulation.physics.mass_scale, nb::arg("noise") = defaults.simulation.noise_scale,
       nb::arg("perfect_state") = false, nb::arg("seed") = defaults.simulation.seed, nb::arg("record_rate") = 100.0,
-      nb::arg("planner") = nb::none(), nb::arg("late") = "act",
+      nb::arg("planner") = nb::none(), nb::arg("late") = "act", nb::arg("watch") = nb::none(),
       "Runs a robot under online control in MuJoCo, like `prowl mpc`. Deterministic.\n\n"
       "command: velocity ahead and to the left [m/s], turn rate [rad/s]. script: a file with commands, gaits and\n"
       "pushes (docs/mpc.md#a-script), in place of command. pushes: (time [s], impulse [N s] in\n"
@@ -259,7 +265,8 @@ void bind_online(nb::module_& module) {
       "measured state until its plan acts [s]. friction, mass: of the simulated world, as in simulate().\n\n"
       "planner: a function MotionRequest -> MotionSteps or None, in the place of Prowl's controller. late: what\n"
       "becomes of plans that take longer than the budget. \"act\": they act at its end all the same; \"drop\":\n"
-      "they are lost; \"wait\": they act when they are ready, and the next state is measured then.");
+      "they are lost; \"wait\": they act when they are ready, and the next state is measured then. watch: a\n"
+      "function that is called with an OnlineMoment at each sample; it may ask for commands and pushes.");
 }
 
 }  // namespace prowl::python

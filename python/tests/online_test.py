@@ -128,3 +128,26 @@ def test_a_script(hyq, tmp_path):
     file.write_text("[[command]]\nwhen = 1.0\n")
     with pytest.raises(prowl.InputError, match="when"):
         prowl.run_online(hyq, script=file)
+
+
+def test_a_watcher(hyq):
+    times = []
+
+    def watch(moment):
+        times.append(moment.t)
+        assert moment.q.shape == (hyq.nq,) and moment.f.shape == (4, 3) and moment.end == 5.0
+        if moment.t == 0.0:
+            moment.command(forward=0.3)
+        if len(times) == 21:
+            moment.push(np.array([0.0, 0.3 * hyq.mass, 0.0]))
+        if moment.t > 2.0:
+            assert moment.commanded[0] == pytest.approx(0.3)
+            moment.stop()
+
+    run = prowl.run_online(hyq, duration=5.0, watch=watch, record_rate=20.0)
+    np.testing.assert_allclose(times, np.arange(len(times)) / 20.0, atol=1e-3)
+    assert run.end_time == pytest.approx(times[-1], abs=2e-3) and 2.0 < times[-1] < 2.1
+    calm = prowl.run_online(hyq, command=(0.3, 0.0, 0.0), duration=2.0, record_rate=20.0)
+    assert np.abs(run.v[20:26, 1]).max() > 2.0 * np.abs(calm.v[20:26, 1]).max(), "the push"
+    with pytest.raises(prowl.InputError, match="record_rate"):
+        prowl.run_online(hyq, duration=0.1, watch=watch, record_rate=0.0)
