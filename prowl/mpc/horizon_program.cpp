@@ -1,6 +1,9 @@
 #include "prowl/mpc/horizon_program.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
@@ -21,6 +24,11 @@ using Entry = Eigen::SparseMatrix<double>::InnerIterator;
 /// with less, feedback lifts it off (2 % and 25 % let Go2 fall when it walks).
 constexpr double kMpcLeastLoad = 0.1;
 
+VectorXd turned_posture(VectorXd q, double angle) {
+  set_base_rotation(q, Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix() * base_rotation(q));
+  return q;
+}
+
 }  // namespace
 
 HorizonProgram::~HorizonProgram() = default;
@@ -34,7 +42,9 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
       feet_(contacts_of_feet(robot)),
       standing_(standing_on_ground(robot)),
       stages_(static_cast<std::size_t>(steps)) {
-  make_sets(weights, friction);
+  make_sets(weights, friction, 0.0);
+  const auto chooses = [](const ContactSet& set) { return set.num_chosen() > 0; };
+  if (std::ranges::any_of(sets_, chooses)) make_sets(weights, friction, 0.5 * std::numbers::pi);
   const NodeFunctions& any = *sets_.back().functions;
   num_curve_rows_ = any.placement_row(0) - any.torque_row(0);
   num_rows_ = height_row(num_contacts_);
@@ -90,12 +100,22 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
 void HorizonProgram::size_work_spaces() {
   HorizonStep& first = stages_.front().step;
   first.length = first.contact_time = 0.1;
-  set_stage(0, standing_, VectorXd::Zero(nv_), VectorXd::Zero(nv_), VectorXd::Zero(nu_));
-  for (first.standing = 0; first.standing < sets_.size(); ++first.standing) linearise(0);
+  for (const double heading : {0.0, 0.5 * std::numbers::pi}) {
+    set_stage(0, turned_posture(standing_, heading), VectorXd::Zero(nv_), VectorXd::Zero(nv_), VectorXd::Zero(nu_));
+    for (first.standing = 0; first.standing < num_sets(); ++first.standing) linearise(0);
+  }
   first.standing = 0;
 }
 
-void HorizonProgram::make_sets(const MpcWeights& weights, double friction) {
+/// Which forces of flat feet follow from others depends on the heading: rows along the world's axes that are
+/// independent at one heading are not at all others. Those of the nearer of two headings are.
+HorizonProgram::ContactSet& HorizonProgram::set_of(const Stage& stage) {
+  const bool is_turned = sets_.size() > num_sets() && std::abs(stage.chart(1, 0)) > std::abs(stage.chart(0, 0));
+  return sets_[stage.step.standing + (is_turned ? num_sets() : 0U)];
+}
+
+void HorizonProgram::make_sets(const MpcWeights& weights, double friction, double heading) {
+  const VectorXd q = turned_posture(standing_, heading);
   MotionProblem problem{
       .name = "horizon",
       .robot = robot_,
@@ -115,8 +135,8 @@ void HorizonProgram::make_sets(const MpcWeights& weights, double friction) {
     problem.phases = {phase};
     set.discrete = std::make_unique<DiscreteProblem>(problem, Mesh{{PhaseMesh(1)}});
     const StabilisationOfStep in_velocity{.rate = 1.0, .stiffness = 0.0};
-    set.functions = std::make_unique<NodeFunctions>(*set.discrete, 0, phase_contacts(*set.discrete, 0, standing_),
-                                                    in_velocity, PlacementKind::motion_of_contacts);
+    set.functions = std::make_unique<NodeFunctions>(*set.discrete, 0, phase_contacts(*set.discrete, 0, q), in_velocity,
+                                                    PlacementKind::motion_of_contacts);
   }
 }
 
@@ -227,7 +247,7 @@ void HorizonProgram::set_point(Stage& stage, ContactSet& set) {
 
 void HorizonProgram::linearise(int k) {
   Stage& stage = stages_[static_cast<std::size_t>(k)];
-  ContactSet& set = sets_[stage.step.standing];
+  ContactSet& set = set_of(stage);
   NodeFunctions& functions = *set.functions;
   const bool is_last = k + 1 == num_stages();
   set_point(stage, set);

@@ -28,9 +28,9 @@ struct HorizonStep {
 ///   v_mid = v + h/2 a,  q_mid = q (+) h/2 v_mid,   c(q_mid, v_mid, a, tau) = 0,   v' = v_mid + h/2 a,
 ///   q' = q_mid (+) h/2 v_mid
 ///
-/// This midpoint rule is of second order, as the planner's trapezoid, and the same two half steps (Arrival, Departure);
-/// but a step has one set of contacts and one torque, so that a switch needs no second node, and the first torque is
-/// that which acts. Contacts of feet that stand are held in velocity only: their anchors are where the feet are.
+/// This midpoint rule is of second order and has the half steps (Arrival, Departure) of the planner's trapezoid. A step
+/// has one set of contacts and one torque: a phase transition needs no second node, and the first torque acts. Contacts
+/// of feet that stand are held in velocity only: their anchors are where the feet are.
 ///
 /// Inequalities of a stage: friction pyramid of each contact of the robot | torque curves | height above the ground and
 /// velocity of each contact | joint positions | joint velocities | torques. Rows without meaning, as friction of a foot
@@ -143,7 +143,8 @@ class HorizonProgram : public LinearisedChain {
   };
   const StageSlopes& slopes(int k) const { return stages_[static_cast<std::size_t>(k)].slopes; }
   void size_work_spaces();
-  void make_sets(const MpcWeights& weights, double friction);
+  void make_sets(const MpcWeights& weights, double friction, double heading);
+  ContactSet& set_of(const Stage& stage);
   void set_patterns(Stage& stage, bool is_last);
   void set_point(Stage& stage, ContactSet& set);
   void fill_values(int k, const ContactSet& set);
@@ -155,7 +156,7 @@ class HorizonProgram : public LinearisedChain {
   double length_;
   std::vector<std::vector<int>> feet_;
   Eigen::VectorXd standing_;
-  std::vector<ContactSet> sets_;  ///< by the bits of standing feet
+  std::vector<ContactSet> sets_;  ///< by the bits of standing feet; of flat feet, then the same for another heading
   StageSize size_;
   Eigen::VectorXd unit_, row_units_;
   std::vector<Stage> stages_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "prowl/model/configuration.hpp"
 #include "prowl/mpc/standing_robot.hpp"
 #include "tests/support/random_vector.hpp"
@@ -110,6 +112,33 @@ TEST(HorizonProgram, FeetAreTheBodiesThatCarryContacts) {
   const auto talos = contacts_of_feet(RobotModel(test::talos_description()));
   ASSERT_EQ(talos.size(), 2U);
   EXPECT_EQ(talos[0].size(), 4U);
+}
+
+/// Of flat feet, some contact forces follow from others. Which ones must not depend on where the robot heads.
+TEST_P(EachRobot, StandsInEachHeading) {
+  const RobotModel robot{GetParam()()};
+  HorizonProgram program(robot, MpcWeights{}, 0.6, kSteps);
+  const VectorXd still = VectorXd::Zero(robot.nv());
+  for (const double turned : {0.0, 0.7, 1.5707963267948966, -1.5, 3.0}) {
+    VectorXd q = program.standing_posture();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(turned, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    q.head<3>() = turn * q.head<3>();
+    set_base_rotation(q, turn * base_rotation(q));
+    const MpcPlan::Step held = standing_step(robot, program.feet(), q);
+    for (int k = 0; k < kSteps; ++k) {
+      program.set_stage(k, q, still, still, held.tau);
+      program.step(k).length = 0.03;
+      program.step(k).contact_time = 0.02;
+      program.step(k).standing = held.standing;
+    }
+    program.linearise(0);
+    EXPECT_LT(largest(program.equalities(0)), 1e-6) << turned;
+    EXPECT_LT(largest(program.equality_slopes(0)), 1e3) << turned;
+    Eigen::Vector3d total = Eigen::Vector3d::Zero();
+    for (Eigen::Index c = 0; c < program.forces(0).size(); c += 3) total += program.forces(0).segment<3>(c);
+    EXPECT_LT((total / robot.weight() - Eigen::Vector3d::UnitZ()).norm(), 1e-6) << turned;
+    EXPECT_LT(largest(program.forces(0)), robot.weight()) << turned;
+  }
 }
 
 }  // namespace
