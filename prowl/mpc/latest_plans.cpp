@@ -11,23 +11,34 @@ constexpr double kAlways = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-LatestPlans::LatestPlans(const RobotModel& robot, const MpcPlan& latest)
-    : robot_(robot), latest_(latest), before_(latest), ready_(kAlways) {}
+LatestPlans::LatestPlans(const RobotModel& robot, const MpcPlan& first)
+    : robot_(robot), kept_(kKept, Kept{first, kAlways}) {}
+
+void LatestPlans::swap(std::size_t i, std::size_t j) {
+  std::swap(kept_[i].plan.steps(), kept_[j].plan.steps());
+  std::swap(kept_[i].ready, kept_[j].ready);
+}
 
 MpcPlan& LatestPlans::begin_next() {
-  std::swap(latest_.steps(), before_.steps());
-  ready_ = kAlways;
-  return latest_;
+  for (std::size_t i = kept_.size() - 1; i > 0; --i) swap(i, i - 1);
+  kept_.front().ready = kAlways;
+  return kept_.front().plan;
 }
 
 void LatestPlans::drop_latest() {
-  std::swap(latest_.steps(), before_.steps());
-  ready_ = kAlways;
+  for (std::size_t i = 0; i + 1 < kept_.size(); ++i) swap(i, i + 1);
+}
+
+/// Before any has begun, the one that begins first.
+const MpcPlan& LatestPlans::acting(double t) const {
+  const auto has_begun = [t](const Kept& kept) { return t >= std::max(kept.plan.start(), kept.ready) - kTimeRounding; };
+  const auto newest = std::ranges::find_if(kept_, has_begun);
+  if (newest != kept_.end()) return newest->plan;
+  return std::ranges::min_element(kept_, {}, [](const Kept& kept) { return kept.plan.start(); })->plan;
 }
 
 bool LatestPlans::torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) const {
-  const bool latest_acts = t >= std::max(latest_.start(), ready_) || before_.start() > t;
-  const MpcPlan& plan = latest_acts ? latest_ : before_;
+  const MpcPlan& plan = acting(t);
   if (t <= plan.end()) {
     plan.torque(t, q, v, tau);
     return true;

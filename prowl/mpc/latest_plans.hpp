@@ -1,32 +1,45 @@
 #pragma once
 
+#include <vector>
+
 #include "prowl/mpc/mpc_plan.hpp"
 
 namespace prowl {
 
-/// The latest plan of a controller, and the one before it, which acts until the latest does. No function allocates but
-/// the constructor.
+/// Begins of plans are sums of times: they count as equal within this [s].
+inline constexpr double kTimeRounding = 1e-9;
+
+/// The latest plans of a controller: the newest that has begun acts. No function allocates but the constructor.
 class LatestPlans {
  public:
-  /// `latest`: the first plan.
-  LatestPlans(const RobotModel& robot, const MpcPlan& latest);
+  /// Number of plans: a plan may begin up to three periods after the measurement that it starts from.
+  static constexpr int kKept = 4;
 
-  const MpcPlan& latest() const { return latest_; }
+  /// `first`: acts until another begins. The robot must outlive this.
+  LatestPlans(const RobotModel& robot, const MpcPlan& first);
+
+  const MpcPlan& latest() const { return kept_.front().plan; }
   /// The place of a new plan, to be written by the caller: it is the latest from now on.
   MpcPlan& begin_next();
-  /// Drops the latest plan, which came too late: the one before goes on.
+  /// Drops the latest plan, which came too late: those before go on.
   void drop_latest();
   /// The latest plan was ready at time t [s] only: it acts from then on.
-  void act_from(double t) { ready_ = t; }
+  void act_from(double t) { kept_.front().ready = t; }
 
-  /// Torques at time t [s] for the state (q, v) at that time, of the latest plan that has begun, with its gains, within
+  /// Torques at time t [s] for the state (q, v) at that time, of the newest plan that has begun, with its gains, within
   /// the limits. After its end torques that damp the joints; then returns false.
   bool torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) const;
 
  private:
+  struct Kept {
+    MpcPlan plan;
+    double ready;  ///< time from which it may act [s]
+  };
+  const MpcPlan& acting(double t) const;
+  void swap(std::size_t i, std::size_t j);
+
   const RobotModel& robot_;
-  MpcPlan latest_, before_;
-  double ready_;  ///< time from which the latest may act [s]
+  std::vector<Kept> kept_;  ///< the latest first
 };
 
 }  // namespace prowl

@@ -53,6 +53,25 @@ TEST(LatestPlans, ADroppedPlanNeverActs) {
   EXPECT_EQ(two.plans.latest().start(), 0.0);
 }
 
+/// A plan every 10 ms that begins 12 ms after it was made. Sums of times differ in their last bits.
+TEST(LatestPlans, TheNewestThatHasBegunActsAtEachTick) {
+  Plans run;
+  for (int tick = 0; tick < 3000; ++tick) {
+    const double t = 1e-3 * tick;
+    if (tick % 10 == 0) run.add(t + 0.012, 2.0 + tick / 10 % 100);
+    const int begun = (tick + 2 - 12) / 10;
+    if (tick >= 10) EXPECT_EQ(run.torque(t + 1e-3 + 1e-3), 2.0 + begun % 100) << tick;
+  }
+}
+
+TEST(LatestPlans, DelaysOfThreePeriodsAreCovered) {
+  Plans run;
+  for (int k = 0; k < 20; ++k) {
+    run.add(0.01 * k + 0.03, 2.0 + k);
+    if (k >= 3) EXPECT_EQ(run.torque(0.01 * k), 2.0 + k - 3) << k;
+  }
+}
+
 TEST(LatestPlans, DampsJointsAfterTheEnd) {
   Plans one;
   one.v.setOnes();

@@ -46,6 +46,16 @@ TEST(PlanExecutor, APlanActsFromItsStart) {
   EXPECT_EQ(one.torque(0.15), 4.0) << "the latest one replaces one that has not begun";
 }
 
+/// A fast computer: the next plan is offered before the last one begins.
+TEST(PlanExecutor, PlansThatComeEarlyActOneAfterTheOther) {
+  Executed one;
+  for (int tick = 0; tick < 500; ++tick) {
+    const double t = 1e-3 * tick;
+    if (tick % 10 == 1) one.executor.offer(plan_of(one.robot, t - 1e-3 + 0.012, 2.0 + tick / 10));
+    if (tick >= 12) EXPECT_EQ(one.torque(t), 2.0 + (tick - 12) / 10) << tick;
+  }
+}
+
 TEST(PlanExecutor, DampsJointsAfterTheEndOfAPlan) {
   Executed one;
   one.v.setOnes();
@@ -69,6 +79,7 @@ TEST(PlanExecutor, NeverMixesTwoPlans) {
     before = now;
   }
   planner.join();
+  EXPECT_GT(one.torque(0.1), 1.0) << "plans were offered";
 }
 
 #ifdef PROWL_COUNTS_ALLOCATIONS
