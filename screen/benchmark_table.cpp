@@ -69,7 +69,8 @@ std::string benchmark_table(const RobotModel& robot, const std::vector<Benchmark
   const Json all = Json::parse(runs);
   std::string text = fmt::format(
       "{}. Velocity errors: RMS [m/s]. CPU times of plans [ms]. Outside: plans with forces outside their cones by more "
-      "than 1 % of the weight. Beyond: control steps with torques beyond a limit.\n\n"
+      "than 1 % of the weight. Beyond: control steps whose commanded torques are more than 1 % beyond a limit at the "
+      "true state.\n\n"
       "| row | meaning | success | 95 % interval | pendulum [m/s] | velocity error, median | worst | p50, median | "
       "p99, "
       "worst | longest | p99 of feedback | outside | within 0.5 s of a kick | beyond | dropped |\n"

@@ -1,4 +1,4 @@
-"""Kicks of HyQ under other controllers, in the loop of `prowl mpc`: a table of runs without a fall.
+"""HyQ, kicked, under other controllers in the loop of `prowl mpc`: a table of successful runs.
 
 Usage: baselines.py RUNS.json --seeds N --first-seed S. Runs that the file has are not repeated. scripts/bench_online calls it.
 """

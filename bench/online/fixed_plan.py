@@ -28,6 +28,8 @@ class FixedPlan:
                 },
             }
         )
+        if not self.plan.good:
+            raise RuntimeError(f"the fixed plan failed: {self.plan.status}")
         self.tracker, self.stride, self.first_lift = self.plan.tracker, stride, first_lift
         times = np.arange(self.tracker.start, self.tracker.end, 1e-3)
         stands = [len(self.tracker.contacts(t)) for t in times]

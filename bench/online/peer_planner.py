@@ -39,7 +39,7 @@ class PeerPlanner:
                 "command": np.array(request.command),
                 "pose": np.array(request.pose),
                 "swings": swings,
-                "stance": self._stance(request, swings),
+                "stance": self._stance(request),
             }
         )
         answer = pickle.load(self.process.stdout)
@@ -47,10 +47,14 @@ class PeerPlanner:
         return prowl.MotionSteps(**answer)
 
     @staticmethod
-    def _stance(request: prowl.MotionRequest, swings: list) -> float:
+    def _stance(request: prowl.MotionRequest) -> float:
         """Time that a foot stands between two swings [s]."""
-        known = sorted({swing for foot in swings for swing in foot if swing is not None})
-        return known[0][1] - known[0][0] if known else 0.0
+        for foot in range(4):
+            times = request.start + np.arange(0.0, 1.5, STEP)
+            known = sorted({swing for t in times if (swing := request.swing(foot, t)) is not None})
+            if len(known) > 1:
+                return known[1][0] - known[0][1]
+        return 0.0
 
     def close(self) -> None:
         self.process.stdin.close()

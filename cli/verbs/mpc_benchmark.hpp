@@ -11,7 +11,7 @@ namespace prowl::cli {
 struct MpcBenchmark {
   std::string file;                  ///< of the runs; those in it are not run again
   std::vector<std::string> rows;     ///< names; empty: all
-  int seeds = 0;                     ///< of each row, in place of its own number; 0: that
+  int seeds = 0;                     ///< of each row, at most; 0: its own number
   std::uint64_t first_seed = 20001;  ///< far from the seeds with which weights were chosen
   int jobs = 0;                      ///< runs at a time; 0: one per core
 };

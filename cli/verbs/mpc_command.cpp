@@ -34,9 +34,8 @@ namespace {
 
 constexpr const char* kWorld = "World";  ///< group of --help
 constexpr const char *kPages = "Pages", *kBenchmark = "Benchmark";
-constexpr double kCommandTime = 1.0;  ///< at which --command begins [s]
-constexpr double kPageRate = 30.0;    ///< of the moments that a page shows [Hz]
-constexpr double kViewed = 600.0;     ///< duration of --view without --duration [s]
+constexpr double kPageRate = 30.0;  ///< of the moments that a page shows [Hz]
+constexpr double kViewed = 600.0;   ///< duration of --view without --duration [s]
 
 struct MpcArguments {
   std::string robot;
@@ -93,7 +92,7 @@ void add_events(const RobotModel& robot, const MpcArguments& arguments, OnlineOp
     add_random_commands(arguments.random_commands, options);
   } else {
     const std::vector<double>& velocity = arguments.command;
-    options.commands.push_back({kCommandTime, {velocity[0], velocity[1], velocity[2], 0.0}, {}});
+    options.commands.push_back({kFirstCommand, {velocity[0], velocity[1], velocity[2], 0.0}, {}});
   }
   if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
   if (!arguments.replay_times.empty()) options.replayed_times = read_times(arguments.replay_times);
@@ -161,7 +160,7 @@ void add_world_options(CLI::App& verb, MpcArguments& arguments) {
           ->type_name("MS")
           ->check(number_in({.lower = 0.0, .upper = 50.0})),
       verb.add_flag("--perfect-state", simulation.perfect_state, "Give the controller the true state"),
-      verb.add_option("--seed", simulation.seed, fmt::format("Seed of noise and kicks; default {}", simulation.seed))
+      verb.add_option("--seed", simulation.seed, fmt::format("Seed of all random numbers; default {}", simulation.seed))
           ->check(whole_number())
           ->type_name("N")};
   for (CLI::Option* const option : all) option->group(kWorld);
@@ -190,16 +189,15 @@ void add_page_options(CLI::App& verb, MpcArguments& arguments) {
 
 void add_benchmark_options(CLI::App& verb, MpcArguments& arguments) {
   MpcBenchmark& benchmark = arguments.benchmark;
-  CLI::Option* const file =
-      verb.add_option("--benchmark", benchmark.file,
-                      "Run the tables of docs/mpc.md, and keep all runs in this file; those in it are not run again")
-          ->type_name("FILE");
-  file->group(kBenchmark)
-      ->excludes("--command")
-      ->excludes("--view")
-      ->excludes("--page")
-      ->excludes("--foxglove")
-      ->excludes("--duration");
+  CLI::Option* const file = verb.add_option("--benchmark", benchmark.file,
+                                            "Run the tables of docs/online-benchmark.md, and keep all runs in this "
+                                            "file; those in it are not run again")
+                                ->type_name("FILE");
+  file->group(kBenchmark);
+  // The file has the runs of one controller in the worlds of its rows: options of single runs would mix others in.
+  for (CLI::Option* const other : verb.get_options()) {
+    if (other != file && other != verb.get_help_ptr() && !other->get_positional()) file->excludes(other);
+  }
   const std::vector<CLI::Option*> all = {
       verb.add_option("--rows", benchmark.rows, "Only these rows, with commas between; default: all")
           ->delimiter(',')
@@ -242,12 +240,13 @@ void add_mpc_command(CLI::App& app, int& status) {
       ->type_name("MS")
       ->check(number_in({.lower = 1.0, .upper = 200.0}));
   verb->add_option("--budget", arguments->budget_ms,
-                   fmt::format("Time from a measured state until its plan acts; default {:g}", arguments->budget_ms))
+                   fmt::format("Computing time allowed for a plan; default {:g}", arguments->budget_ms))
       ->type_name("MS")
       ->check(number_in({.lower = 0.0, .upper = 200.0}));
-  verb->add_option("--late", arguments->late,
-                   "Plans that take longer: act (default) at the end of the budget all the same, which every machine "
-                   "repeats; drop; or wait: when they are ready, and the next state is measured then")
+  verb->add_option(
+          "--late", arguments->late,
+          "Plan over budget: act (default) uses it at the end of the budget, which every machine repeats; drop "
+          "loses it; wait uses it when it is ready, and measures the next state then")
       ->check(one_of({"act", "drop", "wait"}))
       ->type_name("NAME");
   CLI::Option* const script =
@@ -265,7 +264,7 @@ void add_mpc_command(CLI::App& app, int& status) {
                                              "Write the computing time of each plan, for --replay-times")
                                 ->type_name("FILE");
   verb->add_option("--replay-times", arguments->replay_times,
-                   "Take the computing times of plans from this file: repeats a run with --late drop")
+                   "Take the computing times of plans from this file: repeats a run with --late drop or wait")
       ->type_name("FILE")
       ->excludes(save);
   add_world_options(*verb, *arguments);
@@ -273,10 +272,8 @@ void add_mpc_command(CLI::App& app, int& status) {
   add_benchmark_options(*verb, *arguments);
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(
-      *verb, {"prowl mpc hyq --duration 3 --command 0.3 0 0", "prowl mpc go2 --duration 4 --kicks 0.3 --seed 3"},
-      "0 success; 8 the robot fell, touched the ground with other parts than its feet, or did not follow; others as "
-      "prowl plan.");
+  set_footer(*verb, {"prowl mpc hyq --duration 3 --command 0.3 0 0", "prowl mpc go2 --duration 4 --kicks 0.3 --seed 3"},
+             "0 success; 8 the robot fell, collided, or did not follow its command; others as prowl plan.");
   verb->callback([arguments, verb, &status] {
     if (arguments->view && verb->get_option("--duration")->count() == 0) arguments->options.duration = kViewed;
     const bool is_served = arguments->view || arguments->foxglove;

@@ -64,13 +64,14 @@ class MpcController : public controller_interface::ControllerInterface {
     return wanted;
   }
 
-  /// The robot stands in its standing posture: the controller begins there, without a command.
+  /// The robot stands in its standing posture, anywhere: the controller begins there, without a command.
   CallbackReturn on_activate(const rclcpp_lifecycle::State&) override try {
     began_.reset();
+    read(0.0, seen_);
+    measured_ = seen_;
     prowl::MpcOptions options;
     options.delay = kDelay;
-    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(robot_->nv());
-    mpc_.emplace(*robot_, options, prowl::standing_on_ground(*robot_), at_rest, 0.0);
+    mpc_.emplace(*robot_, options, seen_.q, seen_.v, 0.0);
     mpc_->follow(pattern_);
     executor_.emplace(*robot_, mpc_->latest());
     stops_ = false;
@@ -121,10 +122,12 @@ class MpcController : public controller_interface::ControllerInterface {
   }
 
   void plan() {
-    for (State state = seen_; !stops_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+    State state;
+    for (double next = 0.0; !stops_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
       {
         const std::lock_guard guard(lock_);
-        if (measured_.q.size() == 0 || measured_.t < state.t + kPeriod) continue;
+        if (measured_.t < next) continue;
+        next = measured_.t + kPeriod;
         state = measured_;
         mpc_->command(wanted_);
       }

@@ -17,7 +17,8 @@ constexpr double kLeash = 0.1, kTurnLeash = 0.15;
 /// Largest commands: speed over sqrt(g height), and turn times sqrt(height / g); and the largest changes of both a
 /// second, over g, and times height / g.
 constexpr double kMostSpeed = 0.45, kMostTurn = 0.25, kMostPush = 0.15, kMostSpin = 0.2;
-constexpr double kMostHeight = 0.15;  ///< of the standing height, up and down
+constexpr double kLongestPeriod = 0.2;  ///< after a longer pause it does not lead far away at once [s]
+constexpr double kMostHeight = 0.15;    ///< of the standing height, up and down
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
@@ -39,7 +40,7 @@ MpcCommand CommandLead::command(const MpcCommand& command) {
 
 void CommandLead::advance(double start) {
   const double cos = std::cos(heading_), sin = std::sin(heading_);
-  const double dt = std::clamp(start - led_until_, 0.0, 0.1);
+  const double dt = std::clamp(start - led_until_, 0.0, kLongestPeriod);
   led_until_ = start;
   const auto approach = [](double& value, double target, double most) {
     value += std::clamp(target - value, -most, most);

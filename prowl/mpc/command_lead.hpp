@@ -20,7 +20,7 @@ struct MpcCommand {
 /// Where commands lead: place and heading that a robot should have by now, and references of a horizon from there.
 class CommandLead {
  public:
-  /// `standing` (nq): posture of all references. At time t [s] the robot is at q, and stays.
+  /// `standing` (nq): posture of all references, which must outlive this. At time t [s] the robot is at q, and stays.
   CommandLead(const Eigen::VectorXd& standing, const Eigen::VectorXd& q, double t);
 
   /// Returns the command that is followed: within the speeds that the legs allow; 0 for a part that is not finite.

@@ -1,6 +1,11 @@
 #include "prowl/mpc/contact_timeline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+
+#include "prowl/error.hpp"
 
 namespace prowl {
 namespace {
@@ -9,6 +14,8 @@ constexpr std::size_t kMostSwings = 64;  // of a foot at a time; a horizon conta
 constexpr double kRemembered = 1.0;      // [s]
 /// A foot that has not landed when a plan is made does not carry at the start of that plan, for so long [s].
 constexpr double kSoon = 5e-3;
+constexpr double kSameTime = 1e-6;        ///< of a landing and a node of a horizon that ends there [s]
+constexpr double kLongestStride = 5.0;    // [s]
 constexpr double kShortestStance = 0.02;  // between two swings of a foot [s]
 
 }  // namespace
@@ -19,6 +26,16 @@ ContactTimeline::ContactTimeline(int num_feet, double start)
 }
 
 void ContactTimeline::follow(const SteppingPattern& pattern) {
+  for (const std::vector<int>& group : pattern.groups) {
+    for (const int foot : group) {
+      if (foot < 0 || foot >= num_feet()) throw InputError(fmt::format("stepping pattern: no foot {}", foot));
+    }
+  }
+  if (!(pattern.stride > 0.0 && pattern.stride <= kLongestStride && pattern.duty_factor > 0.0 &&
+        pattern.duty_factor < 1.0))
+    throw InputError(
+        fmt::format("stepping pattern: stride {:g} s and duty factor {:g}; need more than 0, at most {:g} s and 1",
+                    pattern.stride, pattern.duty_factor, kLongestStride));
   pattern_ = pattern;
   next_group_ = 0;
 }
@@ -93,12 +110,11 @@ void ContactTimeline::feel(const std::vector<bool>& touches, double t, double de
   for (int f = 0; f < num_feet(); ++f) feel(f, touches[static_cast<std::size_t>(f)], t, delay + kSoon);
 }
 
-double ContactTimeline::lateness(int foot, double t) const {
-  double late = 0.0;
+double ContactTimeline::lateness(int foot, double landing, double t) const {
   for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
-    if (swing.lift <= t) late = swing.has_touched ? 0.0 : std::max(0.0, t - swing.planned);
+    if (std::abs(swing.land - landing) < kSameTime) return swing.has_touched ? 0.0 : std::max(0.0, t - swing.planned);
   }
-  return late;
+  return 0.0;
 }
 
 }  // namespace prowl

@@ -15,7 +15,8 @@ struct SteppingPattern {
 };
 
 /// Swings of each foot in absolute time. A pattern fills it from its end: a change of pattern never alters what a
-/// controller has planned already. Detected contacts move single landings. No allocation after construction.
+/// controller has planned already. Detected contacts move single landings. No allocation after construction but by
+/// follow().
 class ContactTimeline {
  public:
   struct Swing {
@@ -27,7 +28,7 @@ class ContactTimeline {
   /// All feet stand from `start` [s] on.
   ContactTimeline(int num_feet, double start);
 
-  /// Continues with this pattern. Its feet must be those of the timeline.
+  /// Continues with this pattern. Throws InputError if it has other feet, or no time for swing and stance.
   void follow(const SteppingPattern& pattern);
   /// Adds the swings that begin before `until` [s], and forgets those that ended long before `now` [s].
   void extend(double now, double until);
@@ -46,8 +47,8 @@ class ContactTimeline {
   void feel(int foot, bool touches, double t, double soon);
   /// The same for all feet. What is planned at t acts `delay` [s] later.
   void feel(const std::vector<bool>& touches, double t, double delay);
-  /// Time by which the latest landing before t or the next one is late [s]; 0 if it is not.
-  double lateness(int foot, double t) const;
+  /// Time by which a landing that is scheduled for `landing` is late at time t [s]; 0 if it is not.
+  double lateness(int foot, double landing, double t) const;
 
   static constexpr double kMostLate = 0.15, kLandingTime = 0.05;  ///< [s]
 

@@ -78,7 +78,7 @@ HorizonBounds::FootBounds HorizonBounds::bounds_of(int foot, int k, double groun
       bounds.most = ground + (kLandingSpeed + 0.5 * kLandingBrake * left) * left;  // from where it can brake
     }
   } else if (k > 0 && !stands_in(k - 1)) {  // lands at the start of this step
-    bounds.most = ground - (kPress + kSearch * timeline.lateness(foot, grid.time(0)));
+    bounds.most = ground - (kPress + kSearch * timeline.lateness(foot, grid.time(k), grid.time(0)));
     bounds.least = bounds.most - kOnGround;
   }
   return bounds;

@@ -11,10 +11,10 @@ namespace prowl {
 /// Steps of an interior-point method on a HorizonProgram, each in two parts: all that the measured state does not
 /// change, and the rest. A step solves the quadratic program of one linearisation, twice:
 ///
-///   prepare()  from the state that the variables predict. The first iteration begins with the active bounds of the
+///   prepare()  from the state that the variables predict. The first iteration begins with the active set of the
 ///              last step; if these change, predictor-corrector iterations follow.
 ///   step()     from the measured state, which is near. Its first iteration has the factors of prepare(); others follow
-///              only if active bounds of the steps that may act change. The next prepare() sees to the rest.
+///              only if active set of the steps that may act change. The next prepare() sees to the rest.
 class HorizonSolver {
  public:
   /// A view of `program`, which must outlive it. `barrier`: mu of a step of mean length.

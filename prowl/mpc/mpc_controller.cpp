@@ -1,5 +1,7 @@
 #include "prowl/mpc/mpc_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,14 +18,32 @@ constexpr double kContactTime = 0.05, kLaterContactTime = 0.02;
 constexpr int kMostFailures = 5;       ///< in a row, before an update starts anew
 constexpr double kSettledShare = 0.5;  ///< of a step; with less, the next update starts anew
 constexpr double kGroundTime = 0.1;    ///< filter of height and slope of the ground [s]
-constexpr int kFirstIterations = 30;   ///< of the plan with which a controller begins
+constexpr int kMostSteps = 200;
+constexpr double kMostDelay = 0.5;    ///< [s]
+constexpr int kFirstIterations = 30;  ///< of the plan with which a controller begins
+
+const MpcOptions& checked(const MpcOptions& options) {
+  const auto need = [](bool ok, const char* name, double value, const char* range) {
+    if (!ok) throw InputError(fmt::format("{}: {:g} is not allowed; need {}", name, value, range));
+  };
+  need(options.steps >= 2 && options.steps <= kMostSteps, "steps", options.steps, "2 to 200");
+  need(options.first_step > 0.0 && options.first_step <= 1.0, "first_step", options.first_step,
+       "more than 0, at most 1 s");
+  need(options.least_horizon > 0.0 && options.least_horizon <= 10.0, "least_horizon", options.least_horizon,
+       "more than 0, at most 10 s");
+  need(options.delay >= 0.0 && options.delay <= kMostDelay, "delay", options.delay, "0 to 0.5 s");
+  need(options.iterations >= 1, "iterations", options.iterations, "1 or more");
+  need(options.barrier > 0.0 && std::isfinite(options.barrier), "barrier", options.barrier, "> 0");
+  need(options.friction > 0.0 && std::isfinite(options.friction), "friction", options.friction, "> 0");
+  return options;
+}
 
 }  // namespace
 
 MpcController::MpcController(const RobotModel& robot, const MpcOptions& options, const VectorXd& q, const VectorXd& v,
                              double t)
     : robot_(robot),
-      options_(options),
+      options_(checked(options)),
       program_(robot, options.weights, options.friction, options.steps),
       solver_(program_, options.barrier, options.iterations),
       timeline_(program_.num_feet(), t),
@@ -173,7 +193,8 @@ void MpcController::find_ground(const VectorXd& q, double t) {
       ground_.see(contact, terms_.contact_position(contact) - radius * Eigen::Vector3d::UnitZ());
     }
   }
-  ground_.fit(counters_.updates == 0 ? 1.0 : std::min(1.0, 0.01 / kGroundTime));
+  ground_.fit(counters_.updates == 0 ? 1.0 : std::clamp((t - ground_seen_) / kGroundTime, 0.0, 1.0));
+  ground_seen_ = t;
 }
 
 void MpcController::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& tau) {

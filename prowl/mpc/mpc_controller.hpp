@@ -16,10 +16,11 @@
 namespace prowl {
 
 /// Whole-body model predictive control of a robot that steps in a pattern on flat ground. After construction nothing is
-/// thrown, and nothing allocated but by follow().
+/// thrown or allocated but by follow().
 class MpcController final : public OnlineController {
  public:
-  /// The robot stands still in its standing posture at (q, v) and time t [s]. Throws InputError if it cannot stand.
+  /// The robot stands still in its standing posture at (q, v) and time t [s]. Throws InputError if it cannot stand, and
+  /// for options out of range.
   MpcController(const RobotModel& robot, const MpcOptions& options, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 double t);
   MpcController(const MpcController&) = delete;
@@ -64,7 +65,7 @@ class MpcController final : public OnlineController {
   GroundPlane ground_;
   CommandLead lead_;
   HorizonBounds bounds_;
-  double horizon_start_ = 0.0;
+  double horizon_start_ = 0.0, ground_seen_ = 0.0;  ///< [s]
   std::vector<BarrierRows> old_rows_;
   std::vector<StageMultipliers> old_multipliers_;
   std::vector<double> old_lengths_;

@@ -70,6 +70,7 @@ void MpcPlan::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& t
     if (!tau.allFinite()) tau = step.tau;
     clamp_torques(robot_, q, v, tau);
   }
+  tau = tau.cwiseMin(robot_.torque_limit()).cwiseMax(-robot_.torque_limit());
 }
 
 void clamp_torques(const RobotModel& robot, const VectorXd& q, const VectorXd& v, VectorXd& tau) {

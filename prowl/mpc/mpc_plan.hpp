@@ -26,7 +26,7 @@ class MpcPlan {
     Eigen::MatrixXd gain;              ///< K, nu x 2 nv
   };
 
-  /// `most_feedback`: that share.
+  /// `most_feedback`: that share. The robot must outlive the plan.
   MpcPlan(const RobotModel& robot, int steps, double most_feedback = 0.2);
 
   std::vector<Step>& steps() { return steps_; }
@@ -39,7 +39,7 @@ class MpcPlan {
   void state(double t, Eigen::VectorXd& q, Eigen::VectorXd& v) const;
   /// Mean over a span of time [s] of the torques tau_k; beyond the end those of the last step.
   void mean_torques(double from, double to, Eigen::VectorXd& tau) const;
-  /// tau for a state (q, v) at time t [s]. A state that is not finite gives tau_k alone.
+  /// tau for a state (q, v) at time t [s]. A state that is not finite gives tau_k alone, within the limits.
   void torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) const;
 
  private:

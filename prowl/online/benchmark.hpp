@@ -23,7 +23,7 @@ struct BenchmarkRow {
 };
 
 /// The rows of `prowl mpc --benchmark`: computing times, random commands, kicks, an unknown load, slippery and sloping
-/// ground, an hour (docs/mpc.md). `base`: what all have in common, e.g. weights.
+/// ground, an hour (docs/online-benchmark.md). `base`: what all have in common, e.g. weights.
 std::vector<BenchmarkRow> benchmark_rows(const RobotModel& robot, const OnlineOptions& base);
 
 }  // namespace prowl

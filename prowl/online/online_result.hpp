@@ -33,18 +33,18 @@ struct OnlineResult {
   std::vector<std::string> notes;     ///< commands that were out of range, in words
   bool success() const { return failures.empty(); }
 
-  double velocity_error = 0.0;        ///< RMS of the base's horizontal velocity from the command [m/s]
+  double velocity_error = 0.0;        ///< RMS error of the base's horizontal velocity [m/s]
   double turn_error = 0.0;            ///< RMS of its turn rate from the command [rad/s]
   double last_velocity = 0.0;         ///< distance of the mean velocity of the last second from the command [m/s]
   double largest_torque_share = 0.0;  ///< of the limit [-]; infinite if a joint is faster than its limits allow
   long control_steps = 0;
-  long steps_beyond_limits = 0;      ///< of these: torques beyond a limit in the true state
+  long steps_beyond_limits = 0;      ///< of these: commanded torques more than 1 % beyond a limit at the true state
   ForceCount undisturbed, kicked;    ///< plans made outside, and within 0.5 s of a push
   std::vector<std::string> touches;  ///< of anything but feet on the ground, each once
   MpcCounters counters;
   std::vector<double> times;      ///< computing time of each plan, CPU time of the thread [s]
   std::vector<double> feedbacks;  ///< part of these after the state was measured [s]
-  std::vector<double> walls;      ///< the same times by the clock on the wall [s]
+  std::vector<double> walls;      ///< the same in wall-clock time [s]
   long dropped = 0;               ///< plans that were late and lost
   std::vector<OnlineSample> samples;
 };

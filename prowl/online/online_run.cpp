@@ -12,9 +12,11 @@
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/torque_share.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "prowl/online/online_measures.hpp"
 #include "prowl/simulation/actuators.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
 #include "prowl/simulation/ground_error.hpp"
 #include "prowl/simulation/onboard.hpp"
 #include "prowl/simulation/sensors.hpp"
@@ -27,9 +29,8 @@ using Eigen::VectorXd;
 /// A foot's contact switch closes at this share of its even load. Choice: above the noise of real switches.
 constexpr double kSwitchLoad = 0.05;
 constexpr std::size_t kMostNotes = 20;
-constexpr double kAfterPush = 0.5;      ///< plans so long after a push count as disturbed [s]
-constexpr double kBeyond = 1.0 + 1e-9;  ///< share of a limit that is beyond it
-constexpr double kRounding = 1e-9;      ///< of times [s]
+constexpr double kAfterPush = 0.5;  ///< plans so long after a push count as disturbed [s]
+constexpr double kBeyond = 1.01;    ///< share of a limit that is beyond it, where encoders are noisy
 
 double thread_seconds() {
   timespec time{};
@@ -49,6 +50,7 @@ void check(const OnlineOptions& options) {
   need(options.period >= 1e-3 && options.period <= 0.2, "period", options.period, "0.001 to 0.2 s");
   need(options.budget >= 0.0 && options.budget <= 0.2, "budget", options.budget, "0 to 0.2 s");
   need(options.mpc.friction > 0.0 && std::isfinite(options.mpc.friction), "friction", options.mpc.friction, "> 0");
+  need(options.budget <= (LatestPlans::kKept - 1) * options.period, "budget", options.budget, "at most three periods");
   need(options.simulation.delay >= 0.0 && options.simulation.delay <= 0.05, "delay", options.simulation.delay,
        "0 to 0.05 s");
 }
@@ -98,6 +100,9 @@ class Run {
     pending_.assign(1 + static_cast<std::size_t>(std::lround(options.simulation.delay / period_)), tau_);
     follow(options.gait);
     physics_.set_state(start_, VectorXd::Zero(robot.nv()));
+    if (const auto& shapes = options.simulation.physics.collisions) {
+      for (const std::string& reason : shapes->unreadable) note("collides with nothing: " + reason);
+    }
   }
 
   OnlineResult operator()(const OnlineWatcher& watch) {
@@ -111,7 +116,7 @@ class Run {
       if (watch && !ask(watch, t)) break;
       sense(t);
       obey(t);
-      if (t >= next_plan_ - kRounding) plan(t);
+      if (t >= next_plan_ - kTimeRounding) plan(t);
       act(t);
       if (!advance(t)) result_.end = OnlineResult::End::diverged;
       if (!measures_.add_state(t, physics_, mpc_->followed(), ground_) && result_.end == OnlineResult::End::finished)
@@ -198,7 +203,7 @@ class Run {
     const double period = options_.late == LatePlans::wait ? std::max(options_.period, seconds) : options_.period;
     next_plan_ = t + period;
     if (!has_plan) return;
-    if (options_.late == LatePlans::wait) mpc_->act_from(t + seconds);
+    if (options_.late == LatePlans::wait) mpc_->act_from(t + seconds + options_.simulation.delay);
     if (options_.late == LatePlans::drop && seconds > options_.budget) {
       mpc_->drop_latest();
       ++result_.dropped;
@@ -223,7 +228,16 @@ class Run {
     pending_.back() = tau_;
     command_ = tau_ + robot_.losses().torques(v_.tail(robot_.nu()));
     clamp_torques(robot_, q_, v_, command_);
+    if (is_beyond_limits()) ++result_.steps_beyond_limits;
     actuators_->command(command_);
+  }
+
+  /// True if a commanded torque is beyond a limit at the true state, which the controller does not know.
+  bool is_beyond_limits() const {
+    for (int j = 0; j < robot_.nu(); ++j) {
+      if (torque_share(robot_, j, physics_.q()(7 + j), physics_.v()(6 + j), command_(j)) > kBeyond) return true;
+    }
+    return false;
   }
 
   bool advance(double t) {
@@ -239,7 +253,6 @@ class Run {
       sensors_.integrate(step, q_before_, v_before_, physics_.q(), physics_.v());
     }
     result_.largest_torque_share = std::max(result_.largest_torque_share, share);
-    if (share > kBeyond) ++result_.steps_beyond_limits;
     return true;
   }
 

@@ -33,9 +33,9 @@ struct OnlineOptions {
   std::vector<TimedCommand> commands;  ///< in the order of time; before the first: stay
   double duration = 10.0;              ///< [s]
   double period = 0.01;                ///< between two plans [s]
-  double budget = 0.01;                ///< from a measured state to the time at which its plan acts [s]
+  double budget = 0.01;                ///< computing time allowed for a plan [s]; at most three periods
   LatePlans late = LatePlans::act;
-  /// Computing times of plans [s], in order, in place of those measured: repeats a run with LatePlans::drop.
+  /// Computing times of plans [s], in order, in place of those measured: repeats a run with LatePlans::drop or wait.
   std::vector<double> replayed_times = {};
   Planner planner = {};  ///< in the place of an MpcController, if it is set
   /// As in a simulation of a plan; `physics.friction` is that of the ground, `ground.tilt` an unknown slope, `pushes`

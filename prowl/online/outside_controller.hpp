@@ -32,6 +32,8 @@ class OutsideController final : public OnlineController {
  public:
   /// The robot stands still at (q, v) and time t [s]. `delay`: from a measured state to the start of its plan [s].
   OutsideController(const RobotModel& robot, Planner planner, double delay, const Eigen::VectorXd& q, double t);
+  OutsideController(const OutsideController&) = delete;
+  OutsideController& operator=(const OutsideController&) = delete;
 
   const std::vector<std::vector<int>>& feet() const override { return feet_; }
   const ContactTimeline& timeline() const override { return timeline_; }

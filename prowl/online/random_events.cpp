@@ -5,8 +5,8 @@
 namespace prowl {
 namespace {
 
-constexpr double kKickEvery = 2.0, kAfterKick = 1.9;                                                 // [s]
-constexpr double kFirstCommand = 1.0, kCommandFor = 1.0, kCommandSpread = 3.0, kAfterCommand = 3.0;  // [s]
+constexpr double kKickEvery = 2.0, kAfterKick = 1.9;                            // [s]
+constexpr double kCommandFor = 1.0, kCommandSpread = 3.0, kAfterCommand = 3.0;  // [s]
 /// Kicks and commands of one seed have nothing in common.
 constexpr std::uint64_t kKickStream = 1, kCommandStream = 2;
 

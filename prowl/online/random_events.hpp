@@ -4,6 +4,9 @@
 
 namespace prowl {
 
+/// Time at which commands of runs begin [s].
+inline constexpr double kFirstCommand = 1.0;
+
 /// Adds a kick every 2 s, until 1.9 s before the end: a horizontal push of 0.1 s in a random direction whose impulse is
 /// the mass of the robot times `speed` [m/s]. The seed is that of the simulation.
 void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options);

@@ -235,6 +235,7 @@ def _mpc(options: argparse.Namespace) -> None:
             duration=options.duration,
             perfect_state=options.perfect_state,
             watch=server,
+            package_dirs=options.package_dir,
             **given,
         )
     _say(result={**json.loads(run.to_json()), "exit_status": 0 if run.success else 8}, text=run.summary())

@@ -2,6 +2,9 @@
 
 #include <nanobind/nanobind.h>
 
+#include <memory>
+#include <utility>
+
 namespace prowl::python {
 
 // One per subject, in order of their dependence on types.
@@ -26,5 +29,14 @@ void bind_solve(nanobind::module_& module);
 void bind_diagnosis(nanobind::module_& module);
 void bind_dynamics(nanobind::module_& module);
 void bind_program(nanobind::module_& module);
+
+/// A Python object that C++ may copy and destroy without the GIL.
+template <class Object>
+std::shared_ptr<Object> keep(Object object) {
+  return {new Object(std::move(object)), [](Object* kept) {
+            const nanobind::gil_scoped_acquire python;
+            delete kept;
+          }};
+}
 
 }  // namespace prowl::python

@@ -7,7 +7,9 @@
 
 namespace prowl::python {
 
+using Folders = std::vector<std::string>;
+
 /// Folders to search for package://, these first (session/environment.hpp).
-PackageSearch package_search(const std::vector<std::string>& package_dirs);
+PackageSearch package_search(const Folders& package_dirs);
 
 }  // namespace prowl::python

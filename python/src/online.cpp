@@ -8,12 +8,15 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <mutex>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "module_files.hpp"
 #include "planner.hpp"
 #include "prowl/error.hpp"
 #include "prowl/mpc/mpc_controller.hpp"
+#include "prowl/mpc/plan_executor.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "prowl/online/online_json.hpp"
 #include "prowl/online/online_run.hpp"
@@ -37,36 +40,44 @@ class ControllerObject {
       : robot_(robot),
         period_(period),
         controller_(robot_, options(delay, friction), standing_on_ground(robot_), Eigen::VectorXd::Zero(robot.nv()),
-                    0.0) {
+                    0.0),
+        executor_(robot_, controller_.latest()) {
     if (!(period > 0.0)) throw InputError(fmt::format("period: {} is not allowed; need > 0 s", period));
     follow(gait);
   }
 
   void follow(const std::string& gait) {
+    const std::lock_guard guard(planning_);
     const double height = controller_.standing_posture().z();
     controller_.follow(stepping_pattern(robot_, controller_.feet(), height, gait));
   }
   std::array<double, 4> command(double forward, double left, double turn, double height) {
+    const std::lock_guard guard(planning_);
     const MpcCommand kept = controller_.command({forward, left, turn, height});
     return {kept.forward, kept.left, kept.turn, kept.height};
   }
   bool update(double t, const State& q, const State& v, const std::optional<std::vector<bool>>& touches) {
     check_state(q, v);
-    if (touches) {
-      if (touches->size() != controller_.feet().size())
-        throw InputError(fmt::format("touches: {} values; need one for each of {} feet", touches->size(),
-                                     controller_.feet().size()));
-      controller_.feel_contacts(*touches, t);
-    }
-    next_ = t + period_;
+    if (touches && touches->size() != controller_.feet().size())
+      throw InputError(
+          fmt::format("touches: {} values; need one for each of {} feet", touches->size(), controller_.feet().size()));
     const nb::gil_scoped_release others_may_run;
-    return controller_.update(q, v, t);
+    const std::lock_guard guard(planning_);
+    if (touches) controller_.feel_contacts(*touches, t);
+    next_ = t + period_;
+    const bool has_plan = controller_.update(q, v, t);
+    if (has_plan) executor_.offer(controller_.latest());
+    return has_plan;
   }
   Array torque(double t, const State& q, const State& v) {
     check_state(q, v);
     Eigen::VectorXd tau(robot_.nu());
-    controller_.torque(t, q, v, tau);
+    executor_.torque(t, q, v, tau);
     return new_array(tau);
+  }
+  long failed() {
+    const std::lock_guard guard(planning_);
+    return controller_.counters().failed;
   }
   Array step(double t, const State& q, const State& v, const std::optional<std::vector<bool>>& touches) {
     constexpr double kRounding = 1e-9;  // [s]
@@ -94,7 +105,9 @@ class ControllerObject {
 
   RobotModel robot_;
   double period_, next_ = 0.0;
+  std::mutex planning_;  ///< of controller_ and next_, but not of what never changes
   MpcController controller_;
+  PlanExecutor executor_;
 };
 
 /// prowl.OnlineRun: results as arrays, one row per sample.
@@ -131,7 +144,7 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
                                   double period, double budget, double delay, std::optional<double> friction,
                                   double mass, double noise, bool perfect_state, std::uint64_t seed, double record_rate,
                                   const std::optional<nb::callable>& planner, const std::string& late,
-                                  const std::optional<nb::callable>& watch) {
+                                  const std::optional<nb::callable>& watch, const Folders& package_dirs) {
   OnlineOptions options;
   if (planner) options.planner = planner_of(robot, *planner);
   options.late = late_plans_named(late);
@@ -142,7 +155,7 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
   options.simulation.delay = delay;
   options.simulation.physics.friction = friction;
   options.simulation.physics.mass_scale = mass;
-  options.simulation.physics.collisions = collision_shapes(robot, package_search({}));
+  options.simulation.physics.collisions = collision_shapes(robot, package_search(package_dirs));
   options.simulation.noise_scale = noise;
   options.simulation.perfect_state = perfect_state;
   options.simulation.seed = seed;
@@ -153,8 +166,8 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
     add_script(read_script(read_text_file(script->string())), options);
   } else if (random_commands > 0.0) {
     add_random_commands(random_commands, options);
-  } else if (command != std::array<double, 3>{}) {  // else a watcher may ask for one at the start
-    options.commands.push_back({0.0, {command[0], command[1], command[2], 0.0}, {}});
+  } else if (command != std::array<double, 3>{}) {  // else a watcher commands
+    options.commands.push_back({kFirstCommand, {command[0], command[1], command[2], 0.0}, {}});
   }
   const OnlineWatcher watcher = watch ? watcher_of(*watch, record_rate) : OnlineWatcher();
   constexpr int kTicks = 50;
@@ -174,7 +187,8 @@ Matrix rows_view(nb::handle self) {
 void bind_controller(nb::module_& module) {
   nb::class_<ControllerObject>(
       module, "Controller",
-      "Model predictive control of a robot that steps in a gait on flat ground (docs/mpc.md). It begins in its "
+      "Model predictive control of a robot that steps in a gait on flat ground (docs/mpc.md). One thread may plan, "
+      "another ask for torques. It begins in its "
       "standing posture at time 0.")
       .def(nb::init<const RobotModel&, const std::string&, double, double, double>(), nb::arg("robot"),
            nb::arg("gait") = "trot", nb::kw_only(), nb::arg("period") = 0.01, nb::arg("delay") = 0.012,
@@ -202,9 +216,7 @@ void bind_controller(nb::module_& module) {
       .def_prop_ro(
           "feet", [](const ControllerObject& c) { return c.controller().feet(); },
           "Indices of the contacts of each foot.")
-      .def_prop_ro(
-          "failed", [](const ControllerObject& c) { return c.controller().counters().failed; },
-          "Number of updates without a new plan.");
+      .def_prop_ro("failed", &ControllerObject::failed, "Number of updates without a new plan.");
 }
 
 }  // namespace
@@ -257,6 +269,7 @@ void bind_online(nb::module_& module) {
       nb::arg("mass") = defaults.simulation.physics.mass_scale, nb::arg("noise") = defaults.simulation.noise_scale,
       nb::arg("perfect_state") = false, nb::arg("seed") = defaults.simulation.seed, nb::arg("record_rate") = 100.0,
       nb::arg("planner") = nb::none(), nb::arg("late") = "act", nb::arg("watch") = nb::none(),
+      nb::arg("package_dirs") = Folders{},
       "Runs a robot under online control in MuJoCo, like `prowl mpc`. Deterministic.\n\n"
       "command: velocity ahead and to the left [m/s], turn rate [rad/s]. script: a file with commands, gaits and\n"
       "pushes (docs/mpc.md#a-script), in place of command. pushes: (time [s], impulse [N s] in\n"

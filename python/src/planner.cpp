@@ -84,9 +84,10 @@ StepsObject steps_of(const Numbers& t, const Rows& q, const Rows& v, const Rows&
 
 Planner planner_of(const RobotModel& robot, nb::callable function) {
   const Index nv = robot.nv(), forces = 3 * std::ssize(robot.contacts());
-  return [=](const MotionRequest& request, std::vector<MpcPlan::Step>& steps) -> std::optional<double> {
+  return [=, function = keep(std::move(function))](const MotionRequest& request,
+                                                   std::vector<MpcPlan::Step>& steps) -> std::optional<double> {
     const nb::gil_scoped_acquire python;
-    const nb::object answer = function(RequestObject(request));
+    const nb::object answer = (*function)(RequestObject(request));
     if (answer.is_none()) return {};
     if (!nb::isinstance<StepsObject>(answer))
       throw InputError("planner: its answer is neither prowl.MotionSteps nor None");
@@ -145,7 +146,7 @@ void bind_planner(nb::module_& module) {
           nb::arg("t"), nb::arg("q"), nb::arg("v"), nb::arg("tau"), nb::arg("gains"), nb::arg("f") = nb::none(),
           nb::kw_only(), nb::arg("seconds") = 0.0,
           "t: times of nodes (N + 1) [s]. q, v: states there (N + 1, nq and nv). tau: torques of the steps (N, nu).\n"
-          "gains: (N, nu, 2 nv), of the deviation from the states: base displacement in world axes [m], rotation\n"
+          "gains (N, nu, 2 nv) times deviation are added to tau: base displacement in world axes [m], rotation\n"
           "vector in base axes [rad], joints, velocities. f: contact forces (N, 3 each). seconds: computing time [s].")
       .def("__len__", [](const StepsObject& s) { return s.steps.size(); });
 }

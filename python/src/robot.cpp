@@ -21,8 +21,6 @@
 namespace prowl::python {
 namespace {
 
-using Folders = std::vector<std::string>;
-
 nb::object load(const SourceText& file, const Folders& package_dirs) {
   return with_source(nb::cast(load_robot(file, package_search(package_dirs), {.needs_contacts = false})), file);
 }

@@ -51,7 +51,6 @@ std::vector<Point> corners(const Surface& surface) {
   return points;
 }
 
-using Folders = std::vector<std::string>;
 using TermMap = std::map<std::string, TermObject>;
 
 Task read_task(const std::filesystem::path& path, const Folders& package_dirs, std::optional<int> intervals,

@@ -37,13 +37,13 @@ std::array<double, 3> three(const MomentObject& moment) {
 
 OnlineWatcher watcher_of(nb::callable function, double rate) {
   if (!(rate > 0.0)) throw InputError("record_rate: 0 is not allowed with watch; need > 0 Hz");
-  return [=, next = 0.0](OnlineMoment& moment) mutable {
+  return [=, function = keep(std::move(function)), next = 0.0](OnlineMoment& moment) mutable {
     constexpr double kRounding = 1e-9;  // [s]
     if (moment.time < next - kRounding) return;
     next += 1.0 / rate;
     const nb::gil_scoped_acquire python;
     const nb::object told = nb::cast(MomentObject{.sample = moment.sample(), .end = moment.end});
-    function(told);
+    (*function)(told);
     const auto& asked = nb::cast<const MomentObject&>(told);
     moment.command = asked.command;
     moment.impulse = asked.impulse;
@@ -54,7 +54,7 @@ OnlineWatcher watcher_of(nb::callable function, double rate) {
 void bind_watcher(nb::module_& module) {
   nb::class_<MomentObject>(
       module, "OnlineMoment",
-      "What run_online() tells its watcher: the simulated robot now. Its methods ask for what comes.")
+      "What run_online() tells its watcher: the robot now. Its methods request commands, pushes, the end.")
       .def_prop_ro(
           "t", [](const MomentObject& m) { return m.sample.time; }, "[s]")
       .def_ro("end", &MomentObject::end, "Time at which the run ends [s].")

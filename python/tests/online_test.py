@@ -18,8 +18,25 @@ def hyq():
 
 
 def test_the_command_runs_the_same(hyq):
-    run = prowl.run_online(hyq, gait="trot", kicks=0.3, duration=3.0, seed=5, friction=0.7)
-    command = [COMMAND, "mpc", "hyq", "--kicks", "0.3", "--duration", "3", "--seed", "5", "--friction", "0.7", "--json"]
+    run = prowl.run_online(hyq, command=(0.2, 0.0, 0.1), kicks=0.3, duration=3.0, seed=5, friction=0.7)
+    command = [
+        COMMAND,
+        "mpc",
+        "hyq",
+        "--command",
+        "0.2",
+        "0",
+        "0.1",
+        "--kicks",
+        "0.3",
+        "--duration",
+        "3",
+        "--seed",
+        "5",
+        "--friction",
+        "0.7",
+        "--json",
+    ]
     answer = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     mine = json.loads(run.to_json())
     for key in ("end_time_s", "velocity_error_mps", "turn_error_radps", "plans", "failed_plans", "forces", "failures"):
@@ -46,6 +63,10 @@ def test_a_controller_steps_as_it_plans(hyq):
         tau = controller.step(0.001 * k, q, v, [True] * 4)
     np.testing.assert_array_equal(tau, controller.torque(0.019, q, v))
     assert controller.failed == 0 and tau.shape == (12,)
+    fell = q.copy()
+    fell[2] -= 0.05  # a new plan pushes it up
+    lower = [controller.step(0.001 * k, fell, v, [True] * 4) for k in range(20, 45)][-1]
+    assert not np.allclose(lower, controller.torque(0.044, q, v), atol=1.0) and np.abs(lower - tau).max() > 5.0
     # The torques of standing still: those that MuJoCo needs to hold it are in the tests of the library.
     still = prowl.Controller(hyq, "stand", period=0.02).step(0.0, q, v)
     np.testing.assert_allclose(still, tau, atol=5.0)

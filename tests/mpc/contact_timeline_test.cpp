@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "prowl/error.hpp"
+
 namespace prowl {
 namespace {
 
@@ -43,7 +45,7 @@ TEST(ContactTimeline, AnEarlyFootHasLanded) {
   EXPECT_NE(timeline.swing(0, 0.06), nullptr) << "touches in the first half of a swing are those of the lift-off";
   timeline.feel(0, true, 0.15, 0.0);
   EXPECT_EQ(timeline.swing(0, 0.15), nullptr);
-  EXPECT_EQ(timeline.lateness(0, 0.15), 0.0);
+  EXPECT_EQ(timeline.lateness(0, 0.15, 0.15), 0.0);
 }
 
 TEST(ContactTimeline, ALateFootIsAwaited) {
@@ -52,7 +54,12 @@ TEST(ContactTimeline, ALateFootIsAwaited) {
   timeline.extend(0.0, 2.0);
   for (double t = 0.19; t < 0.25; t += 0.001) timeline.feel(0, false, t, 0.01);
   EXPECT_NE(timeline.swing(0, 0.255), nullptr);
-  EXPECT_NEAR(timeline.lateness(0, 0.25), 0.05, 1e-9);
+  const double landing = timeline.swing(0, 0.255)->land;
+  EXPECT_NEAR(timeline.lateness(0, landing, 0.25), 0.05, 1e-9);
+  timeline.extend(0.0, 2.0);
+  const ContactTimeline::Swing* const next = timeline.swing(0, 0.65);
+  ASSERT_NE(next, nullptr);
+  EXPECT_EQ(timeline.lateness(0, next->land, 0.25), 0.0) << "the next landing is on time";
   timeline.feel(0, true, 0.25, 0.01);
   EXPECT_EQ(timeline.swing(0, 0.25), nullptr);
   // Not for ever.
@@ -61,6 +68,17 @@ TEST(ContactTimeline, ALateFootIsAwaited) {
   lost.extend(0.0, 2.0);
   for (double t = 0.0; t < 0.45; t += 0.001) lost.feel(0, false, t, 0.01);
   EXPECT_EQ(lost.swing(0, 0.2 + ContactTimeline::kMostLate + 0.011), nullptr);
+}
+
+TEST(ContactTimeline, RefusesPatternsThatItCannotFollow) {
+  ContactTimeline timeline(4, 0.0);
+  SteppingPattern endless = kTrot;
+  endless.stride = 0.0;
+  EXPECT_THROW(timeline.follow(endless), InputError);
+  SteppingPattern always = kTrot;
+  always.duty_factor = 1.0;
+  EXPECT_THROW(timeline.follow(always), InputError);
+  EXPECT_THROW(timeline.follow({.groups = {{4}}}), InputError);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ TEST(HorizonGrid, NoSwitchIsInsideAStep) {
   timeline.follow({.groups = {{2}, {0}, {3}, {1}}, .stride = 0.61, .duty_factor = 0.78});
   HorizonGrid grid(20, 0.015, 0.7);
   const double last_step = grid.step(19);  // without switches
+  long at_nodes = 0;
   for (int i = 0; i < 500; ++i) {
     const double start = std::uniform_real_distribution<double>(0.02 * i, 0.02 * i + 0.02)(random);
     timeline.extend(start, start + 1.0);
@@ -35,9 +36,14 @@ TEST(HorizonGrid, NoSwitchIsInsideAStep) {
         if (t < grid.end() - 0.5 * last_step) EXPECT_LT(to_node, 4.1e-3) << start << ", step " << k;
       }
       EXPECT_EQ(grid.step_at(grid.middle(k)), k);
+      for (int foot = 0; foot < 4; ++foot) {
+        const ContactTimeline::Swing* const swing = timeline.swing(foot, grid.time(k));
+        if (swing && swing->lift == grid.time(k)) ++at_nodes;
+      }
     }
     EXPECT_GT(grid.step(grid.num_steps() - 1), 0.49 * last_step) << "a landing has room before the end";
   }
+  EXPECT_GT(at_nodes, 500 * 3) << "lift-offs at nodes: four a stride, and the horizon is longer";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
 #include "prowl/mpc/stepping_patterns.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/robots.hpp"
@@ -89,22 +90,34 @@ TEST(MpcController, LoadsLandingFeetLittleByLittle) {
 
 TEST(MpcController, GainsAreTheDerivativeOfThePlannedTorque) {
   Standing standing;
-  standing.trot();
-  follow_plan(standing, 0.0, 1.0);
   // With one iteration the quadratic program is Newton's step, linear in the measured state.
   MpcOptions options;
   options.iterations = 1;
-  MpcController once(standing.robot, options, standing.mpc.standing_posture(), VectorXd::Zero(standing.robot.nv()),
-                     0.0);
-  const VectorXd q = once.standing_posture(), v = VectorXd::Zero(standing.robot.nv());
-  for (int i = 0; i < 20; ++i) ASSERT_TRUE(once.update(q, v, 0.0));
-  const VectorXd tau = once.latest().steps()[0].tau;
-  const Eigen::MatrixXd gain = once.latest().steps()[0].gain;
-  VectorXd moved = v;
-  moved(1) = 1e-4;
-  ASSERT_TRUE(once.update(q, moved, 0.0));
-  EXPECT_LT((once.latest().steps()[0].tau - tau - gain.col(standing.robot.nv() + 1) * 1e-4).norm(),
-            1e-3 * gain.col(standing.robot.nv() + 1).norm() * 1e-4 + 1e-7);
+  MpcController once(standing.robot, options, standing.q, standing.v, 0.0);
+  const int nv = standing.robot.nv();
+  constexpr double kMoved = 1e-4;
+  for (int i = 0; i < 2 * nv; ++i) {
+    for (int settling = 0; settling < 20; ++settling) ASSERT_TRUE(once.update(standing.q, standing.v, 0.0));
+    const VectorXd tau = once.latest().steps()[0].tau, gain = once.latest().steps()[0].gain.col(i);
+    VectorXd q = standing.q, v = standing.v;
+    if (i < 3) q(i) += kMoved;  // the base moves along the world's axes
+    if (i >= 3 && i < nv) q = integrate(q, kMoved * VectorXd::Unit(nv, i));
+    if (i >= nv) v(i - nv) += kMoved;
+    ASSERT_TRUE(once.update(q, v, 0.0));
+    const VectorXd changed = once.latest().steps()[0].tau - tau;
+    EXPECT_LT((changed - kMoved * gain).norm(), 1e-2 * kMoved * gain.norm() + 1e-6) << i;
+  }
+}
+
+TEST(MpcController, RefusesOptionsOutOfRange) {
+  Standing standing;
+  const auto refuses = [&](const MpcOptions& options) {
+    EXPECT_THROW(MpcController(standing.robot, options, standing.q, standing.v, 0.0), InputError);
+  };
+  refuses({.steps = 1});
+  refuses({.delay = 1e6});
+  refuses({.delay = std::numeric_limits<double>::quiet_NaN()});
+  refuses({.iterations = 0});
 }
 
 TEST(MpcController, SurvivesStatesThatAreNone) {

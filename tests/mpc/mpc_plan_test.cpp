@@ -82,6 +82,9 @@ TEST_F(Plan, TorquesAreFiniteAndWithinTheLimitsWhateverTheState) {
   v(3) = std::numeric_limits<double>::quiet_NaN();
   plan.torque(1.0, q, v, tau);
   EXPECT_EQ(tau, plan.steps()[0].tau);
+  plan.steps()[0].tau *= 1e4;
+  plan.torque(1.0, q, v, tau);
+  EXPECT_TRUE((tau.cwiseAbs().array() <= robot.torque_limit().array()).all()) << "nothing is known of the state";
 }
 
 }  // namespace
