@@ -42,19 +42,15 @@ const MpcOptions& checked(const MpcOptions& options) {
 
 MpcController::MpcController(const RobotModel& robot, const MpcOptions& options, const VectorXd& q, const VectorXd& v,
                              double t)
-    : robot_(robot),
-      options_(checked(options)),
+    : OnlineController(robot, checked(options).delay, q, t, options.steps, MpcPlan::kMostFeedback),
+      options_(options),
       program_(robot, options.weights, options.friction, options.steps),
       solver_(program_, options.barrier, options.iterations),
-      timeline_(program_.num_feet(), t),
       grid_(options.steps, options.first_step, options.least_horizon),
-      plans_(robot_, MpcPlan(robot_, options.steps)),
-      prediction_(robot_, program_.feet()),
       terms_(robot_),
       ground_(static_cast<int>(robot.contacts().size()), robot.size()),
-      lead_(program_.standing_posture(), q, t),
       bounds_(program_, options_) {
-  const MpcPlan::Step still = standing_step(robot_, program_.feet(), q);
+  const MpcPlan::Step still = standing_step(robot_, feet_, q);
   q_ = q_next_ = q;
   v_ = v_next_ = VectorXd::Zero(robot.nv());
   a_ = v_;
@@ -71,7 +67,7 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
     old_lengths_.push_back(grid_.step(k));
   }
   program_.use_hessian(options.hessian);
-  find_ground(q, t);
+  look(q, t);
   bool solved = false;
   for (int i = 0; i < kFirstIterations; ++i) solved = update(q, v, t);
   if (!solved) throw InputError(robot.name() + ": no plan holds the robot in its standing posture");
@@ -79,31 +75,20 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
 }
 
 void MpcController::follow(const SteppingPattern& pattern) {
-  timeline_.follow(pattern);
+  OnlineController::follow(pattern);
   grid_ = HorizonGrid(options_.steps, options_.first_step, std::max(options_.least_horizon, pattern.stride));
 }
 
-void MpcController::feel_contacts(const std::vector<bool>& touches, double t) {
-  timeline_.feel(touches, t, options_.delay);
-}
-
-bool MpcController::prepare(double t) {
-  ++counters_.updates;
+bool MpcController::prepare_from(double start) {
   if (!is_settled_) restart();
-  lay_horizon(t + options_.delay);
-  shift();
-  lead_.lead(horizon_start_, grid_, ground_, program_);
-  bounds_.set(grid_, timeline_, ground_, solver_);
-  const bool is_ready = is_settled_ = solver_.prepare();
-  if (!is_ready) ++counters_.failed;
-  if (solver_.regularisation() > 0.0) ++counters_.regularised;
-  return is_ready;
-}
-
-void MpcController::lay_horizon(double start) {
   timeline_.extend(start, start + grid_.length() + 0.1);
   grid_.lay(start, timeline_);
-  horizon_start_ = start;
+  shift();
+  lead_.lead(start, grid_, ground_, program_);
+  bounds_.set(grid_, timeline_, ground_, solver_);
+  is_settled_ = solver_.prepare();
+  if (solver_.regularisation() > 0.0) ++counters_.regularised;
+  return is_settled_;
 }
 
 /// Puts the last plan on the new steps: its states, and the means of its accelerations and torques, which keep the
@@ -140,19 +125,8 @@ void MpcController::shift() {
   for (int k = 0; k < steps; ++k) old_lengths_[static_cast<std::size_t>(k)] = grid_.step(k);
 }
 
-bool MpcController::plan(const VectorXd& q, const VectorXd& v, double t) {
-  if (!q.allFinite() || !v.allFinite()) {
-    ++counters_.failed;
-    ++counters_.bad_states;
-    return false;
-  }
-  q_ = q;
-  v_ = v;
-  find_ground(q, t);
-  prediction_.predict(plans_, timeline_, t, horizon_start_, q_, v_);
-  lead_.stay_near(q_, robot_.size());
-  if (!solver_.step(q_, v_)) {
-    ++counters_.failed;
+bool MpcController::plan_from(const VectorXd& q, const VectorXd& v, double) {
+  if (!solver_.step(q, v)) {
     // What the rows know by now helps the next quadratic program, unless it leads nowhere.
     is_settled_ = ++failed_in_a_row_ % kMostFailures != 0;
     return false;
@@ -184,7 +158,7 @@ void MpcController::read_plan() {
 }
 
 /// From the contacts of feet that stand, but those that have just landed without being felt.
-void MpcController::find_ground(const VectorXd& q, double t) {
+void MpcController::look(const VectorXd& q, double t) {
   terms_.update_kinematics(q);
   for (int f = 0; f < program_.num_feet(); ++f) {
     if (timeline_.swing(f, t) || timeline_.unfelt(f, t)) continue;
@@ -195,10 +169,6 @@ void MpcController::find_ground(const VectorXd& q, double t) {
   }
   ground_.fit(counters_.updates == 0 ? 1.0 : std::clamp((t - ground_seen_) / kGroundTime, 0.0, 1.0));
   ground_seen_ = t;
-}
-
-void MpcController::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& tau) {
-  if (!plans_.torque(t, q, v, tau)) ++counters_.damped;
 }
 
 }  // namespace prowl

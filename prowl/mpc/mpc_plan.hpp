@@ -26,8 +26,9 @@ class MpcPlan {
     Eigen::MatrixXd gain;              ///< K, nu x 2 nv
   };
 
+  static constexpr double kMostFeedback = 0.2;
   /// `most_feedback`: that share. The robot must outlive the plan.
-  MpcPlan(const RobotModel& robot, int steps, double most_feedback = 0.2);
+  MpcPlan(const RobotModel& robot, int steps, double most_feedback = kMostFeedback);
 
   std::vector<Step>& steps() { return steps_; }
   const std::vector<Step>& steps() const { return steps_; }

@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "prowl/model/robot_model.hpp"
 #include "prowl/mpc/command_lead.hpp"
 #include "prowl/mpc/contact_timeline.hpp"
 #include "prowl/mpc/latest_plans.hpp"
+#include "prowl/mpc/state_prediction.hpp"
 
 namespace prowl {
 
@@ -19,41 +21,73 @@ struct MpcCounters {
   long damped = 0;       ///< torques after the end of the last plan: joints are damped
 };
 
-/// Plans while its robot moves. update() plans, torque() gives the torques of the latest plan with its gains.
+/// Plans while its robot moves. update() plans, torque() gives the torques of the latest plan with its gains. How a
+/// motion is found is left to derived classes; commands, contacts, delay and choice of the plan that acts are here.
 class OnlineController {
  public:
   virtual ~OnlineController() = default;
+  OnlineController(const OnlineController&) = delete;
+  OnlineController& operator=(const OnlineController&) = delete;
 
-  virtual const std::vector<std::vector<int>>& feet() const = 0;  ///< contacts of each foot
-  virtual const ContactTimeline& timeline() const = 0;
-  virtual const MpcPlan& latest() const = 0;
-  virtual const MpcCounters& counters() const = 0;
+  const std::vector<std::vector<int>>& feet() const { return feet_; }  ///< contacts of each foot
+  const Eigen::VectorXd& standing_posture() const { return standing_; }
+  const ContactTimeline& timeline() const { return timeline_; }
+  const MpcPlan& latest() const { return plans_.latest(); }
+  const MpcCounters& counters() const { return counters_; }
   /// Command after smoothing, as the latest plan follows it.
-  virtual const MpcCommand& followed() const = 0;
+  const MpcCommand& followed() const { return lead_.followed(); }
 
-  /// From the end of what is planned on.
-  virtual void follow(const SteppingPattern& pattern) = 0;
+  /// From the end of what is planned on. Throws InputError as ContactTimeline::follow().
+  virtual void follow(const SteppingPattern& pattern) { timeline_.follow(pattern); }
   /// Returns the command that is followed: within the speeds that the legs allow.
-  virtual MpcCommand command(const MpcCommand& command) = 0;
+  MpcCommand command(const MpcCommand& command) { return lead_.command(command); }
   /// Which feet touch the ground (one flag a foot), as measured at time t [s]. A foot that touches in the second half
   /// of its swing has landed.
-  virtual void feel_contacts(const std::vector<bool>& touches, double t) = 0;
+  void feel_contacts(const std::vector<bool>& touches, double t) { timeline_.feel(touches, t, delay_); }
 
   /// Plans from the state (q, v) measured at time t [s]. False if there is no new plan: the last one goes on.
   bool update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) { return prepare(t) && plan(q, v, t); }
   /// The two parts of update(): everything that can be done before the state is measured, and the rest.
-  virtual bool prepare(double t) = 0;
-  virtual bool plan(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) = 0;
+  bool prepare(double t);
+  bool plan(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
   /// Computing time of the latest plan [s], where `on_thread` is the CPU time of the calling thread.
   virtual double computing_time(double on_thread) const { return on_thread; }
   /// Drops the latest plan, which came too late: the one before goes on.
-  virtual void drop_latest() = 0;
+  void drop_latest() { plans_.drop_latest(); }
   /// The latest plan was ready at time t [s] only.
-  virtual void act_from(double t) = 0;
+  void act_from(double t) { plans_.act_from(t); }
 
-  /// Torques at time t for the state (q, v) at that time: those of the latest plan that has begun, with its gains,
+  /// Torques at time t for the state (q, v) at that time: those of the newest plan that has begun, with its gains,
   /// within the limits. After its end, torques that damp the joints.
-  virtual void torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) = 0;
+  void torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau);
+
+ protected:
+  /// The robot stands still at q and time t [s]. `delay`: from a measured state to the start of its plan [s].
+  /// `steps`, `most_feedback`: of plans, see MpcPlan. Derived classes add the first plan.
+  OnlineController(const RobotModel& robot, double delay, const Eigen::VectorXd& q, double t, int steps,
+                   double most_feedback);
+
+  /// What can be done before the state is measured, for a plan from `start` [s] on. False if no plan can follow.
+  virtual bool prepare_from(double start) = 0;
+  /// Learns what the configuration q measured at time t [s] tells of the world.
+  virtual void look(const Eigen::VectorXd&, double) {}
+  /// Adds a plan from the state (q, v) on, expected at its start; t: of the measured one [s]. False if there is none.
+  virtual bool plan_from(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) = 0;
+
+  double start() const { return start_; }  ///< of the plan that is being made [s]
+
+  RobotModel robot_;
+  std::vector<std::vector<int>> feet_;
+  Eigen::VectorXd standing_;
+  ContactTimeline timeline_;
+  CommandLead lead_;
+  LatestPlans plans_;
+  MpcCounters counters_;
+
+ private:
+  double delay_, start_;
+  StatePrediction prediction_;
+  Eigen::VectorXd q_, v_;  ///< expected at start_
 };
 
 }  // namespace prowl

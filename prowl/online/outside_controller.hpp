@@ -6,8 +6,6 @@
 
 #include "prowl/model/robot_model.hpp"
 #include "prowl/mpc/online_controller.hpp"
-#include "prowl/mpc/standing_robot.hpp"
-#include "prowl/mpc/state_prediction.hpp"
 
 namespace prowl {
 
@@ -32,37 +30,16 @@ class OutsideController final : public OnlineController {
  public:
   /// The robot stands still at (q, v) and time t [s]. `delay`: from a measured state to the start of its plan [s].
   OutsideController(const RobotModel& robot, Planner planner, double delay, const Eigen::VectorXd& q, double t);
-  OutsideController(const OutsideController&) = delete;
-  OutsideController& operator=(const OutsideController&) = delete;
 
-  const std::vector<std::vector<int>>& feet() const override { return feet_; }
-  const ContactTimeline& timeline() const override { return timeline_; }
-  const MpcPlan& latest() const override { return plans_.latest(); }
-  const MpcCounters& counters() const override { return counters_; }
-  const MpcCommand& followed() const override { return lead_.followed(); }
-
-  void follow(const SteppingPattern& pattern) override { timeline_.follow(pattern); }
-  MpcCommand command(const MpcCommand& command) override { return lead_.command(command); }
-  void feel_contacts(const std::vector<bool>& touches, double t) override;
-  bool prepare(double t) override;
-  bool plan(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) override;
   double computing_time(double) const override { return computing_time_; }
-  void drop_latest() override { plans_.drop_latest(); }
-  void act_from(double t) override { plans_.act_from(t); }
-  void torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) override;
 
  private:
-  RobotModel robot_;
+  bool prepare_from(double start) override;
+  bool plan_from(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) override;
+
   Planner planner_;
-  double delay_, start_ = 0.0, computing_time_ = 0.0;
-  std::vector<std::vector<int>> feet_;
-  Eigen::VectorXd standing_, q_, v_;
-  ContactTimeline timeline_;
-  CommandLead lead_;
-  LatestPlans plans_;
-  StatePrediction prediction_;
+  double computing_time_ = 0.0;  ///< [s]
   std::vector<MpcPlan::Step> steps_;
-  MpcCounters counters_;
 };
 
 }  // namespace prowl
