@@ -1,9 +1,11 @@
 """HyQ, kicked, under other controllers in the loop of `prowl mpc`: a table of successful runs.
 
-Usage: baselines.py RUNS.json --seeds N --first-seed S. Runs that the file has are not repeated. scripts/bench_online calls it.
+Usage: baselines.py RUNS.json --prowl-runs HYQ.json --seeds N --first-seed S. Runs that the file has are not repeated. scripts/bench_online calls it.
 """
 
 import argparse
+import functools
+import itertools
 import json
 import pathlib
 from collections.abc import Callable
@@ -34,6 +36,7 @@ def peer(solver: str, iterations: int) -> Callable[[prowl.Robot], PeerPlanner]:
     return lambda robot: PeerPlanner(robot, ROBOT, solver, iterations)
 
 
+@functools.cache
 def fixed_plan(robot: prowl.Robot) -> FixedPlan:
     """A trot with the schedule of Prowl's online trot, which a first request tells."""
     swings = []
@@ -103,27 +106,37 @@ def table(runs: list[dict], seeds: list[int]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def prowl_row(runs: list[dict], seeds: list[int]) -> str:
+    """The same of Prowl, from the runs of `prowl mpc --benchmark`."""
+    cells = ["Prowl, 10 ms budget"]
+    for kick in KICKS:
+        rows = (f"curve_{kick:.1f}", f"kicks_{kick:.1f}")
+        of_kick = [one["success"] for one in runs if one["row"] in rows and one["seed"] in seeds]
+        cells.append(f"{sum(of_kick)} of {len(of_kick)}")
+    return "| " + " | ".join(cells) + " | | |\n"
+
+
+def read(file: pathlib.Path) -> list[dict]:
+    return json.loads(file.read_text()) if file.exists() else []
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", type=pathlib.Path)
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--first-seed", type=int, required=True)
-    parser.add_argument("--only-table", action="store_true", help="of the runs that the file has")
+    parser.add_argument("--prowl-runs", type=pathlib.Path, required=True, help="of HyQ, by prowl mpc --benchmark")
     arguments = parser.parse_args()
     seeds = list(range(arguments.first_seed, arguments.first_seed + arguments.seeds))
-    runs = json.loads(arguments.runs.read_text()) if arguments.runs.exists() else []
-    if not arguments.only_table:
-        install(ENVIRONMENT)
-        robot = prowl.read_robot(ROBOT)
-        known = {(one["controller"], one["kick_mps"], one["seed"]) for one in runs}
-        for seed in seeds:
-            for kick in KICKS:
-                for baseline in BASELINES:
-                    if (baseline.name, kick, seed) in known:
-                        continue
-                    runs.append(run(robot, baseline, kick, seed))
-                    arguments.runs.write_text(json.dumps(runs, indent=1))
-    print(table(runs, seeds), end="")
+    runs = read(arguments.runs)
+    known = {(one["controller"], one["kick_mps"], one["seed"]) for one in runs}
+    install(ENVIRONMENT)
+    robot = prowl.read_robot(ROBOT)
+    for seed, kick, baseline in itertools.product(seeds, KICKS, BASELINES):
+        if (baseline.name, kick, seed) not in known:
+            runs.append(run(robot, baseline, kick, seed))
+            arguments.runs.write_text(json.dumps(runs, indent=1))
+    print(table(runs, seeds) + prowl_row(read(arguments.prowl_runs), seeds), end="")
 
 
 if __name__ == "__main__":

@@ -34,8 +34,9 @@ class FixedPlan:
         times = np.arange(self.tracker.start, self.tracker.end, 1e-3)
         stands = [len(self.tracker.contacts(t)) for t in times]
         self.lift = times[next(k for k in range(1, len(times)) if stands[k] < stands[k - 1])]
-        q, v = prowl.Controller(robot, "stand").standing, np.zeros(robot.nv)
-        tau = prowl.Controller(robot, "stand").torque(0.0, q, v)
+        standing = prowl.Controller(robot, "stand")
+        q, v = standing.standing, np.zeros(robot.nv)
+        tau = standing.torque(0.0, q, v)
         self.standing = (q, v, tau, -self.tracker.gains(0.5 * self.lift))  # until the first lift-off
 
     def __call__(self, request: prowl.MotionRequest) -> prowl.MotionSteps:

@@ -8,8 +8,7 @@ import numpy as np
 
 import prowl
 from peers.environment import ENVIRONMENT, ROOT, variables
-
-STEP, NODES = 0.01, 40  # of peers/shooting_mpc.py
+from peers.mpc_mesh import NODES, STEP
 
 
 class PeerPlanner:
@@ -20,7 +19,7 @@ class PeerPlanner:
         self.process = subprocess.Popen(
             module, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=variables(), cwd=ROOT / "bench"
         )
-        self.seconds: list[float] = []
+        self.stance = 0.0  # time that a foot stands between two swings, once it is known [s]
         standing = prowl.Controller(robot, "stand").standing
         self._send({"joints": robot.joint_names, "standing": np.array(standing)})
 
@@ -31,6 +30,7 @@ class PeerPlanner:
     def __call__(self, request: prowl.MotionRequest) -> prowl.MotionSteps:
         times = request.start + STEP * np.arange(NODES + 1)
         swings = [[request.swing(foot, t) for t in times] for foot in range(4)]
+        self.stance = self.stance or self._stance(request)
         self._send(
             {
                 "start": request.start,
@@ -39,16 +39,14 @@ class PeerPlanner:
                 "command": np.array(request.command),
                 "pose": np.array(request.pose),
                 "swings": swings,
-                "stance": self._stance(request),
+                "stance": self.stance,
             }
         )
-        answer = pickle.load(self.process.stdout)
-        self.seconds.append(answer["seconds"])
-        return prowl.MotionSteps(**answer)
+        return prowl.MotionSteps(**pickle.load(self.process.stdout))
 
     @staticmethod
     def _stance(request: prowl.MotionRequest) -> float:
-        """Time that a foot stands between two swings [s]."""
+        """That time; 0 if no foot swings twice in what is known."""
         for foot in range(4):
             times = request.start + np.arange(0.0, 1.5, STEP)
             known = sorted({swing for t in times if (swing := request.swing(foot, t)) is not None})

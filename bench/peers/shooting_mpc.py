@@ -17,11 +17,10 @@ from crocoddyl.utils.quadruped import SimpleQuadrupedalGaitProblem
 
 from judge.robot import GRAVITY, Robot, read_robot
 from peers.environment import package_dirs
+from peers.mpc_mesh import NODES, STEP
 
-STEP = 0.01  # of a node, as in Crocoddyl's quadrupedal_gaits [s]
-NODES = 40
 ANSWERED = 15  # steps of an answer: a plan acts for less than their time
-STEP_HEIGHT = 0.1  # as there [m]
+STEP_HEIGHT = 0.1  # as in Crocoddyl's quadrupedal_gaits [m]
 SWING = 1e6  # its weight of the places of feet in the air
 LANDING, LANDING_SPEED = 1e7, 1e6  # weights of its pseudo-impulse, whose cost is not multiplied by a step
 SOLVERS: dict[str, Callable] = {"boxfddp": crocoddyl.SolverBoxFDDP, "sqp": mim_solvers.SolverSQP}
