@@ -27,12 +27,13 @@ class _Channels:
 
     def add(self, topic: str, message_type: str, latched: bool = False) -> None:
         import foxglove
-        from mcap_ros2._dynamic import serialize_dynamic
+
+        from ._exports.ros2_encoder import encoder
 
         name, definition = ros2_messages.ros2_type(message_type), ros2_messages.definition(message_type)
         schema = foxglove.Schema(name=name, encoding="ros2msg", data=definition.encode())
         channel = foxglove.Channel(topic, message_encoding="cdr", schema=schema, context=self._context)
-        self._channels[topic] = (channel, serialize_dynamic(name, definition)[name])
+        self._channels[topic] = (channel, encoder(message_type))
 
     def write(self, topic: str, nanoseconds: int, message: dict) -> None:
         channel, encode = self._channels[topic]
@@ -51,7 +52,8 @@ class Foxglove:
     def __init__(self, robot: _prowl.Robot, port: int = 8765) -> None:
         with needs("foxglove"):
             import foxglove
-            import mcap_ros2._dynamic  # noqa: F401
+
+            from ._exports import ros2_encoder  # noqa: F401
 
         self._robot, self._dynamics = robot, _prowl.Dynamics(robot)
         self._wish, self._is_new, self._began, self._next = None, True, 0, 0.0

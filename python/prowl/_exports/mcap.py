@@ -6,9 +6,9 @@ import io
 
 from mcap.well_known import SchemaEncoding
 from mcap.writer import CompressionType, Writer
-from mcap_ros2._dynamic import serialize_dynamic
 
 from . import ros2_messages
+from .ros2_encoder import encoder
 from .ros2_topics import add_topics, contacts_of, world_frame, write_sample, write_start
 
 CHUNK = 1 << 20  # [bytes]
@@ -39,7 +39,7 @@ class FileTopics:
         if name not in self._schemas:
             definition = ros2_messages.definition(message_type)
             self._schemas[name] = self._writer.register_schema(name, SchemaEncoding.ROS2, definition.encode())
-            self._encoders[name] = serialize_dynamic(name, definition)[name]
+            self._encoders[name] = encoder(message_type)
         metadata = {"offered_qos_profiles": LATCHED if latched else ""}
         channel = self._writer.register_channel(
             topic=topic, message_encoding="cdr", schema_id=self._schemas[name], metadata=metadata
