@@ -247,7 +247,7 @@ void add_mpc_command(CLI::App& app, int& status) {
           "--late", arguments->late,
           "Plan over budget: act (default) uses it at the end of the budget, which every machine repeats; drop "
           "loses it; wait uses it when it is ready, and measures the next state then")
-      ->check(one_of({"act", "drop", "wait"}))
+      ->check(one_of(late_plans_names()))
       ->type_name("NAME");
   CLI::Option* const script =
       verb->add_option("--script", arguments->script, "Commands, gaits and pushes from a file (docs/mpc.md#a-script)")

@@ -24,6 +24,9 @@ using Entry = Eigen::SparseMatrix<double>::InnerIterator;
 /// with less, feedback lifts it off (2 % and 25 % let Go2 fall when it walks).
 constexpr double kMpcLeastLoad = 0.1;
 
+/// At which dependent forces of flat feet are chosen, see set_of() [rad].
+constexpr double kHeadings[] = {0.0, 0.5 * std::numbers::pi};
+
 VectorXd turned_posture(VectorXd q, double angle) {
   set_base_rotation(q, Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix() * base_rotation(q));
   return q;
@@ -42,9 +45,9 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
       feet_(contacts_of_feet(robot)),
       standing_(standing_on_ground(robot)),
       stages_(static_cast<std::size_t>(steps)) {
-  make_sets(weights, friction, 0.0);
+  make_sets(weights, friction, kHeadings[0]);
   const auto chooses = [](const ContactSet& set) { return set.num_chosen() > 0; };
-  if (std::ranges::any_of(sets_, chooses)) make_sets(weights, friction, 0.5 * std::numbers::pi);
+  if (std::ranges::any_of(sets_, chooses)) make_sets(weights, friction, kHeadings[1]);
   const NodeFunctions& any = *sets_.back().functions;
   num_curve_rows_ = any.placement_row(0) - any.torque_row(0);
   num_rows_ = height_row(num_contacts_);
@@ -100,8 +103,9 @@ HorizonProgram::HorizonProgram(const RobotModel& robot, const MpcWeights& weight
 void HorizonProgram::size_work_spaces() {
   HorizonStep& first = stages_.front().step;
   first.length = first.contact_time = 0.1;
-  for (const double heading : {0.0, 0.5 * std::numbers::pi}) {
-    set_stage(0, turned_posture(standing_, heading), VectorXd::Zero(nv_), VectorXd::Zero(nv_), VectorXd::Zero(nu_));
+  for (unsigned i = 0; i < sets_.size() / num_sets(); ++i) {
+    set_stage(0, turned_posture(standing_, kHeadings[i]), VectorXd::Zero(nv_), VectorXd::Zero(nv_),
+              VectorXd::Zero(nu_));
     for (first.standing = 0; first.standing < num_sets(); ++first.standing) linearise(0);
   }
   first.standing = 0;

@@ -1,9 +1,6 @@
 #include "prowl/mpc/mpc_controller.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "prowl/error.hpp"
 
@@ -18,25 +15,7 @@ constexpr double kContactTime = 0.05, kLaterContactTime = 0.02;
 constexpr int kMostFailures = 5;       ///< in a row, before an update starts anew
 constexpr double kSettledShare = 0.5;  ///< of a step; with less, the next update starts anew
 constexpr double kGroundTime = 0.1;    ///< filter of height and slope of the ground [s]
-constexpr int kMostSteps = 200;
-constexpr double kMostDelay = 0.5;    ///< [s]
-constexpr int kFirstIterations = 30;  ///< of the plan with which a controller begins
-
-const MpcOptions& checked(const MpcOptions& options) {
-  const auto need = [](bool ok, const char* name, double value, const char* range) {
-    if (!ok) throw InputError(fmt::format("{}: {:g} is not allowed; need {}", name, value, range));
-  };
-  need(options.steps >= 2 && options.steps <= kMostSteps, "steps", options.steps, "2 to 200");
-  need(options.first_step > 0.0 && options.first_step <= 1.0, "first_step", options.first_step,
-       "more than 0, at most 1 s");
-  need(options.least_horizon > 0.0 && options.least_horizon <= 10.0, "least_horizon", options.least_horizon,
-       "more than 0, at most 10 s");
-  need(options.delay >= 0.0 && options.delay <= kMostDelay, "delay", options.delay, "0 to 0.5 s");
-  need(options.iterations >= 1, "iterations", options.iterations, "1 or more");
-  need(options.barrier > 0.0 && std::isfinite(options.barrier), "barrier", options.barrier, "> 0");
-  need(options.friction > 0.0 && std::isfinite(options.friction), "friction", options.friction, "> 0");
-  return options;
-}
+constexpr int kFirstIterations = 30;   ///< of the plan with which a controller begins
 
 }  // namespace
 

@@ -18,4 +18,10 @@ struct MpcOptions {
   HessianKind hessian = HessianKind::gauss_newton_with_cones;
 };
 
+/// Throws InputError "name: value is not allowed; need ..." unless the value is allowed.
+void check_option(bool is_allowed, const char* name, double value, const char* needed);
+
+/// The same options; throws InputError for one out of range.
+const MpcOptions& checked(const MpcOptions& options);
+
 }  // namespace prowl

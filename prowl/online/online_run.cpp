@@ -43,16 +43,16 @@ double wall_seconds() {
 }
 
 void check(const OnlineOptions& options) {
-  const auto need = [](bool ok, const char* name, double value, const char* range) {
-    if (!ok) throw InputError(fmt::format("{}: {:g} is not allowed; need {}", name, value, range));
-  };
-  need(options.duration > 0.0 && options.duration <= 1e5, "duration", options.duration, "more than 0, at most 1e5 s");
-  need(options.period >= 1e-3 && options.period <= 0.2, "period", options.period, "0.001 to 0.2 s");
-  need(options.budget >= 0.0 && options.budget <= 0.2, "budget", options.budget, "0 to 0.2 s");
-  need(options.mpc.friction > 0.0 && std::isfinite(options.mpc.friction), "friction", options.mpc.friction, "> 0");
-  need(options.budget <= (LatestPlans::kKept - 1) * options.period, "budget", options.budget, "at most three periods");
-  need(options.simulation.delay >= 0.0 && options.simulation.delay <= 0.05, "delay", options.simulation.delay,
-       "0 to 0.05 s");
+  check_option(options.duration > 0.0 && options.duration <= 1e5, "duration", options.duration,
+               "more than 0, at most 1e5 s");
+  check_option(options.period >= 1e-3 && options.period <= 0.2, "period", options.period, "0.001 to 0.2 s");
+  check_option(options.budget >= 0.0 && options.budget <= 0.2, "budget", options.budget, "0 to 0.2 s");
+  check_option(options.mpc.friction > 0.0 && std::isfinite(options.mpc.friction), "friction", options.mpc.friction,
+               "> 0");
+  check_option(options.budget <= (LatestPlans::kKept - 1) * options.period, "budget", options.budget,
+               "at most three periods");
+  check_option(options.simulation.delay >= 0.0 && options.simulation.delay <= 0.05, "delay", options.simulation.delay,
+               "0 to 0.05 s");
 }
 
 /// A posture on level ground, turned about the origin with the ground.
@@ -281,13 +281,16 @@ class Run {
 
 }  // namespace
 
+const std::vector<std::string>& late_plans_names() {
+  static const std::vector<std::string> names = {"act", "drop", "wait"};
+  return names;
+}
+
 LatePlans late_plans_named(const std::string& name) {
-  const std::pair<const char*, LatePlans> known[] = {
-      {"act", LatePlans::act}, {"drop", LatePlans::drop}, {"wait", LatePlans::wait}};
-  for (const auto& [known_name, late] : known) {
-    if (name == known_name) return late;
-  }
-  throw InputError(fmt::format("late: '{}' is not allowed; need act, drop or wait", name));
+  const auto found = std::ranges::find(late_plans_names(), name);
+  if (found == late_plans_names().end())
+    throw InputError(fmt::format("late: '{}' is not allowed; need act, drop or wait", name));
+  return static_cast<LatePlans>(found - late_plans_names().begin());
 }
 
 Surface ground_of(const OnlineOptions& options) {

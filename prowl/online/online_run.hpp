@@ -24,7 +24,9 @@ enum class LatePlans {
   wait,  ///< it acts as soon as it is ready; the next state is measured then
 };
 
-/// "act", "drop" or "wait"; throws InputError for other names.
+/// In the order of LatePlans.
+const std::vector<std::string>& late_plans_names();
+/// Throws InputError for a name that is none of these.
 LatePlans late_plans_named(const std::string& name);
 
 struct OnlineOptions {

@@ -80,8 +80,7 @@ class ControllerObject {
     return controller_.counters().failed;
   }
   Array step(double t, const State& q, const State& v, const std::optional<std::vector<bool>>& touches) {
-    constexpr double kRounding = 1e-9;  // [s]
-    if (t >= next_ - kRounding) update(t, q, v, touches);
+    if (t >= next_ - kTimeRounding) update(t, q, v, touches);
     return torque(t, q, v);
   }
 

@@ -38,8 +38,7 @@ std::array<double, 3> three(const MomentObject& moment) {
 OnlineWatcher watcher_of(nb::callable function, double rate) {
   if (!(rate > 0.0)) throw InputError("record_rate: 0 is not allowed with watch; need > 0 Hz");
   return [=, function = keep(std::move(function)), next = 0.0](OnlineMoment& moment) mutable {
-    constexpr double kRounding = 1e-9;  // [s]
-    if (moment.time < next - kRounding) return;
+    if (moment.time < next - kTimeRounding) return;
     next += 1.0 / rate;
     const nb::gil_scoped_acquire python;
     const nb::object told = nb::cast(MomentObject{.sample = moment.sample(), .end = moment.end});

@@ -1,0 +1,34 @@
+#include "prowl/mpc/mpc_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr int kMostSteps = 200;
+constexpr double kMostDelay = 0.5;  ///< [s]
+
+}  // namespace
+
+void check_option(bool is_allowed, const char* name, double value, const char* needed) {
+  if (!is_allowed) throw InputError(fmt::format("{}: {:g} is not allowed; need {}", name, value, needed));
+}
+
+const MpcOptions& checked(const MpcOptions& options) {
+  check_option(options.steps >= 2 && options.steps <= kMostSteps, "steps", options.steps, "2 to 200");
+  check_option(options.first_step > 0.0 && options.first_step <= 1.0, "first_step", options.first_step,
+               "more than 0, at most 1 s");
+  check_option(options.least_horizon > 0.0 && options.least_horizon <= 10.0, "least_horizon", options.least_horizon,
+               "more than 0, at most 10 s");
+  check_option(options.delay >= 0.0 && options.delay <= kMostDelay, "delay", options.delay, "0 to 0.5 s");
+  check_option(options.iterations >= 1, "iterations", options.iterations, "1 or more");
+  check_option(options.barrier > 0.0 && std::isfinite(options.barrier), "barrier", options.barrier, "> 0");
+  check_option(options.friction > 0.0 && std::isfinite(options.friction), "friction", options.friction, "> 0");
+  return options;
+}
+
+}  // namespace prowl
