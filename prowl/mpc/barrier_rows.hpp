@@ -22,6 +22,8 @@ class BarrierRows {
   Eigen::Index size() const { return lower_.at.size(); }
   /// A bound that was infinite before starts on the central path at the next linearisation.
   void set_bounds(Eigen::Index row, double lower, double upper, double penalty);
+  const Eigen::VectorXd& lower() const { return lower_.at; }
+  const Eigen::VectorXd& upper() const { return upper_.at; }
   /// Lets all bounds start like that.
   void reset();
   /// Takes distances, multipliers and elastic variables over from a neighbouring stage; multipliers times `factor`.

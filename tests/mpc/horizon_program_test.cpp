@@ -84,6 +84,42 @@ TEST_P(EachRobot, DerivativesAreThoseOfTheValues) {
   }
 }
 
+TEST_P(EachRobot, HessianIsThatOfTheLagrangian) {
+  HorizonProgram program(RobotModel{GetParam()()}, MpcWeights{}, 0.6, kSteps);
+  std::mt19937 rng(5);
+  fill(program, rng);
+  for (int k = 0; k < kSteps; ++k) {
+    StageMultipliers& on = program.multipliers(k);
+    for (VectorXd* multipliers : {&on.equalities, &on.inequalities, &on.next})
+      *multipliers = test::random_vector(rng, static_cast<int>(multipliers->size()), 1.0);
+    const auto gradient = [&] {
+      program.linearise(k);
+      VectorXd result = program.cost_gradient(k) + program.equality_slopes(k).transpose() * on.equalities;
+      program.add_pull_back(k, on.next, on.inequalities, result);
+      return result;
+    };
+    program.linearise(k);
+    const MatrixXd hessian = program.lagrangian_hessian(k).selfadjointView<Eigen::Lower>();
+    MatrixXd expected(hessian.rows(), hessian.cols());
+    for (Eigen::Index j = 0; j < hessian.cols(); ++j) {
+      constexpr double kStep = 1e-5;
+      double& variable = program.variables(k)(j);
+      const double at = variable;
+      variable = at + kStep;
+      expected.col(j) = gradient();
+      variable = at - kStep;
+      expected.col(j) = (expected.col(j) - gradient()) / (2.0 * kStep);
+      variable = at;
+      // Forces of contacts that other sets have change nothing. They only have to stay determined.
+      if (largest(expected.col(j)) > 0.0) continue;
+      EXPECT_GE(j, program.robot().nv() + program.robot().nu());
+      EXPECT_GT(hessian(j, j), 0.0);
+      expected(j, j) = hessian(j, j);
+    }
+    EXPECT_LT(largest(hessian - expected), 1e-6 * largest(expected)) << k;
+  }
+}
+
 TEST_P(EachRobot, StateAndInputsComeBack) {
   HorizonProgram program(RobotModel{GetParam()()}, MpcWeights{}, 0.6, kSteps);
   std::mt19937 rng(4);
