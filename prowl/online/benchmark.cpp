@@ -16,7 +16,7 @@ using Events = BenchmarkRow::Events;
 
 constexpr double kCommands = 0.5;  ///< largest random velocities [m/s] and turn rates [rad/s]
 constexpr double kOneKick = 6.0, kShort = 20.0, kLong = 60.0, kTicks = 1000.0, kHour = 3600.0;  // [s]
-constexpr int kFewSeeds = 50, kManySeeds = 200;
+constexpr int kCurveSeeds = 20, kFewSeeds = 50, kManySeeds = 200;
 constexpr double kPayload = 0.2;  ///< of the robot's mass
 constexpr double kSlippery = 0.4;
 constexpr double kSlope = 10.0;                         // [degrees]
@@ -83,7 +83,7 @@ std::vector<BenchmarkRow> benchmark_rows(const RobotModel& robot, const OnlineOp
   for (const double kick : {0.5, 1.0})
     rows.add_kicks(fmt::format("one_kick_{:.1f}", kick), kick, kOneKick, kFewSeeds, Events::one_kick);
   for (const double kick : kCurve)
-    rows.add_kicks(fmt::format("curve_{:.1f}", kick), kick, kShort, kFewSeeds, Events::kicks);
+    rows.add_kicks(fmt::format("curve_{:.1f}", kick), kick, kShort, kCurveSeeds, Events::kicks);
 
   BenchmarkRow& loaded =
       rows.add("payload", "20 % more mass on the base, unknown", kShort, kFewSeeds, Events::commands);
