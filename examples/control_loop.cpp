@@ -49,6 +49,7 @@ int main(int count, char** arguments) try {
 
   prowl::Physics robot(model, {prowl::Surface{.name = "ground", .friction = 0.6}}, {.step = 1e-3});
   robot.set_state(now.q, now.v);
+  const double least_load = 0.05 * model.weight() / 4.0;  // of a switch that closes
   Eigen::VectorXd tau(model.nu());
   const auto began = std::chrono::steady_clock::now();
   for (int tick = 0; tick < 5000; ++tick) {
@@ -59,7 +60,7 @@ int main(int count, char** arguments) try {
       now.t = t;
       now.q = robot.q();
       now.v = robot.v();
-      for (int foot = 0; foot < 4; ++foot) now.touches[foot] = robot.contacts()[foot].load > 0.0 || tick == 0;
+      for (int foot = 0; foot < 4; ++foot) now.touches[foot] = robot.contacts()[foot].load > least_load || tick == 0;
     }
     executor.torque(t, robot.q(), robot.v(), tau);  // within the limits; no allocation, never waits
     if (!robot.step(tau)) break;

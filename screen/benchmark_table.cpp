@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 /// Of all runs of a row.
 struct RowSums {
   int runs = 0, successes = 0;
-  double p99 = 0.0, longest = 0.0, feedback = 0.0;
+  double turn = 0.0, p99 = 0.0, longest = 0.0, feedback = 0.0;
   std::vector<double> medians, velocities;
   long plans = 0, outside = 0, kicked_plans = 0, kicked_outside = 0, steps = 0, beyond = 0, dropped = 0;
 
@@ -23,6 +23,7 @@ struct RowSums {
     ++runs;
     if (run["success"]) ++successes;
     velocities.push_back(run["velocity_error_mps"]);
+    turn = std::max<double>(turn, run["turn_error_radps"]);
     const Json& ticks = run["plan_ms"];
     medians.push_back(ticks["median"]);
     p99 = std::max<double>(p99, ticks["p99"]);
@@ -53,13 +54,12 @@ std::string percent(long part, long all) {
 std::string table_row(const BenchmarkRow& row, const RowSums& sums) {
   const SuccessRate rate = success_rate(sums.successes, sums.runs);
   return fmt::format(
-      "| {} | {} | {} of {} | {:.0f} to {:.0f} % | {} | {:.3f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {} | {} "
-      "| "
-      "{} | {} |\n",
+      "| {} | {} | {} of {} | {:.0f} to {:.0f} % | {} | {:.3f} | {:.3f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | "
+      "{} | {} | {} | {} |\n",
       row.name, row.meaning, sums.successes, sums.runs, 100.0 * rate.lower, 100.0 * rate.upper,
       row.pendulum > 0.0 ? fmt::format("{:.2f}", row.pendulum) : "", median(sums.velocities),
-      *std::ranges::max_element(sums.velocities), median(sums.medians), sums.p99, sums.longest, sums.feedback,
-      percent(sums.outside, sums.plans), percent(sums.kicked_outside, sums.kicked_plans),
+      *std::ranges::max_element(sums.velocities), sums.turn, median(sums.medians), sums.p99, sums.longest,
+      sums.feedback, percent(sums.outside, sums.plans), percent(sums.kicked_outside, sums.kicked_plans),
       percent(sums.beyond, sums.steps), sums.dropped);
 }
 
@@ -68,13 +68,13 @@ std::string table_row(const BenchmarkRow& row, const RowSums& sums) {
 std::string benchmark_table(const RobotModel& robot, const std::vector<BenchmarkRow>& rows, const std::string& runs) {
   const Json all = Json::parse(runs);
   std::string text = fmt::format(
-      "{}. Velocity errors: RMS [m/s]. CPU times of plans [ms]. Outside: plans with forces outside their cones by more "
-      "than 1 % of the weight. Beyond: control steps whose commanded torques are more than 1 % beyond a limit at the "
-      "true state.\n\n"
-      "| row | meaning | success | 95 % interval | pendulum [m/s] | velocity error, median | worst | p50, median | "
-      "p99, "
-      "worst | longest | p99 of feedback | outside | within 0.5 s of a kick | beyond | dropped |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "{}. Errors from the smoothed command: RMS of velocity [m/s] and of turn rate [rad/s]. CPU times of plans [ms]. "
+      "Outside: plans with forces outside their cones by more than 1 % of the weight. Beyond: control steps whose "
+      "commanded torques are more than 1 % beyond a limit at the true state.\n\n"
+      "| row | meaning | success | 95 % interval | pendulum [m/s] | velocity error, median | worst | turn error, worst "
+      "| "
+      "p50, median | p99, worst | longest | p99 of feedback | outside | within 0.5 s of a kick | beyond | dropped |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       robot.name());
   for (const BenchmarkRow& row : rows) {
     RowSums sums;

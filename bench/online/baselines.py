@@ -108,12 +108,15 @@ def table(runs: list[dict], seeds: list[int]) -> str:
 
 def prowl_row(runs: list[dict], seeds: list[int]) -> str:
     """The same of Prowl, from the runs of `prowl mpc --benchmark`."""
-    cells = ["Prowl, 10 ms budget"]
+    cells, times = ["Prowl, 10 ms budget"], []
     for kick in KICKS:
         rows = (f"curve_{kick:.1f}", f"kicks_{kick:.1f}")
-        of_kick = [one["success"] for one in runs if one["row"] in rows and one["seed"] in seeds]
-        cells.append(f"{sum(of_kick)} of {len(of_kick)}")
-    return "| " + " | ".join(cells) + " | | |\n"
+        of_kick = [one for one in runs if one["row"] in rows and one["seed"] in seeds]
+        cells.append(f"{sum(one['success'] for one in of_kick)} of {len(of_kick)}")
+        times += [(one["plan_ms"]["median"], one["plan_ms"]["p99"]) for one in of_kick]
+    medians, p99s = zip(*times, strict=True) if times else ((0.0,), (0.0,))
+    cells += [f"{np.median(medians):.1f}", f"{max(p99s):.1f}"]
+    return "| " + " | ".join(cells) + " |\n"
 
 
 def read(file: pathlib.Path) -> list[dict]:

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <memory>
 #include <numbers>
 
@@ -35,6 +36,7 @@ namespace {
 constexpr const char* kWorld = "World";  ///< group of --help
 constexpr const char *kPages = "Pages", *kBenchmark = "Benchmark";
 constexpr double kPageRate = 30.0;  ///< of the moments that a page shows [Hz]
+constexpr double kFastest = 100.0;  ///< of a command [m/s, rad/s]: beyond it the number is a mistake
 constexpr double kViewed = 600.0;   ///< duration of --view without --duration [s]
 
 struct MpcArguments {
@@ -95,6 +97,8 @@ void add_events(const RobotModel& robot, const MpcArguments& arguments, OnlineOp
     options.commands.push_back({kFirstCommand, {velocity[0], velocity[1], velocity[2], 0.0}, {}});
   }
   if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
+  if (!arguments.replay_times.empty() && options.late == LatePlans::act)
+    throw InputError("--replay-times needs --late drop or wait: otherwise times of plans change nothing");
   if (!arguments.replay_times.empty()) options.replayed_times = read_times(arguments.replay_times);
 }
 
@@ -108,8 +112,19 @@ void write_page(const RobotModel& robot, const MpcArguments& arguments, const On
   print_message(fmt::format("page: {}, {:.1f} MB\n", arguments.page, 1e-6 * static_cast<double>(html.size())));
 }
 
+/// Throws InputError before a run whose results would be lost.
+void check_folder_of(const char* option, const std::string& file) {
+  if (file.empty()) return;
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw InputError(fmt::format("{}: there is no folder {}", option, folder.string()));
+}
+
 int run_mpc(const MpcArguments& arguments) {
   check_mujoco();
+  check_folder_of("--page", arguments.page);
+  check_folder_of("--save-times", arguments.save_times);
   const PackageSearch search = package_search(arguments.package_dirs);
   const RobotModel robot = load_robot(read_text_file(find_robot(arguments.robot)), search);
   OnlineOptions options = base_options(robot, arguments, search);
@@ -230,6 +245,7 @@ void add_mpc_command(CLI::App& app, int& status) {
   verb->add_option("--command", arguments->command,
                    "Velocity ahead and to the left [m/s], and turn rate [rad/s], from 1 s on; default 0 0 0")
       ->expected(3)
+      ->check(number_in({.lower = -kFastest, .upper = kFastest}))
       ->type_name("VX VY YAW");
   verb->add_option("--duration", arguments->options.duration,
                    fmt::format("Simulated time; default {:g}", arguments->options.duration))

@@ -83,6 +83,7 @@ class MpcController : public controller_interface::ControllerInterface {
   CallbackReturn on_deactivate(const rclcpp_lifecycle::State&) override {
     stops_ = true;
     if (planner_.joinable()) planner_.join();
+    for (auto& interface : command_interfaces_) (void)interface.set_value(0.0);  // joints are free: hold the robot
     return CallbackReturn::SUCCESS;
   }
 

@@ -8,22 +8,26 @@ ForwardDynamics::ForwardDynamics(const RobotModel& robot, std::vector<int> conta
     : terms_(robot), kinematics_(std::move(contacts)), rank_threshold_(rank_threshold) {}
 
 void ForwardDynamics::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau) {
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms_.nv());
-  terms_.update_with_derivatives(q, v, zero);  // for M; r0 at a = 0 is h
+  zero_.setZero(terms_.nv());
+  terms_.update_with_derivatives(q, v, zero_);  // for M; r0 at a = 0 is h
   kinematics_.set_configuration(terms_);
-  kinematics_.set_motion(v, zero);  // the acceleration at a = 0 is J̇ v
+  kinematics_.set_motion(v, zero_);  // the acceleration at a = 0 is J̇ v
   projector_.compute(kinematics_.jacobian(), rank_threshold_);
-  P_ = projector_.matrix();
-  pinv_ = projector_.pseudo_inverse();
+  projector_.form(P_, pinv_);
 
   const Eigen::MatrixXd& M = terms_.mass_matrix();
-  const Eigen::MatrixXd PM = P_ * M;
-  constrained_mass_.compute(M + PM - PM.transpose());
+  PM_.noalias() = P_ * M;
+  constrained_mass_.compute(M + PM_ - PM_.transpose());
 
-  Eigen::VectorXd applied = -terms_.inverse_dynamics();  // S' τ − h
-  applied.tail(tau.size()) += tau;
-  a_ = constrained_mass_.solve(P_ * applied - M * (pinv_ * kinematics_.acceleration()));
-  f_ = pinv_.transpose() * (M * a_ - applied);
+  applied_ = -terms_.inverse_dynamics();  // S' τ − h
+  applied_.tail(tau.size()) += tau;
+  pulled_.noalias() = pinv_ * kinematics_.acceleration();  // −C v
+  driven_.noalias() = P_ * applied_;
+  driven_.noalias() -= M * pulled_;
+  a_ = constrained_mass_.solve(driven_);
+  left_ = -applied_;
+  left_.noalias() += M * a_;
+  f_.noalias() = pinv_.transpose() * left_;
   if (!a_.allFinite() || !f_.allFinite()) {
     throw NumericalError("the forward dynamics are not finite here: a state, torque or inertia is NaN or too large");
   }

@@ -18,7 +18,8 @@ namespace prowl {
 ///
 /// C v is dP/dt v if J v = 0; otherwise it keeps J J⁺ (J a + J̇ v) = 0. The set of contacts may be empty or redundant;
 /// then a is still unique and f has least norm.
-/// One object holds the work space of one thread; results stay until the next evaluation.
+/// One object holds the work space of one thread; results stay until the next evaluation. evaluate() allocates only at
+/// first, and where the rank of J changes.
 class ForwardDynamics {
  public:
   /// First derivatives of a vector y(q, v, τ); q in the tangent of configuration.hpp.
@@ -59,6 +60,8 @@ class ForwardDynamics {
   Eigen::MatrixXd P_, pinv_;                               // P, J⁺
   Eigen::PartialPivLU<Eigen::MatrixXd> constrained_mass_;  // of Mc
   Eigen::VectorXd a_, f_;
+  Eigen::MatrixXd PM_;  // P M
+  Eigen::VectorXd zero_, applied_, pulled_, driven_, left_;
   Derivatives da_, df_;
 };
 

@@ -1,6 +1,5 @@
 #include "prowl/dynamics/projector.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -68,20 +67,35 @@ void Projector::factor_deficient() {
     inverse_factor_.setZero(0, qr_.cols());
     return;
   }
-  Eigen::MatrixXd trapezoid = Eigen::MatrixXd::Zero(qr_.cols(), rank_);
-  trapezoid.transpose().triangularView<Eigen::Upper>() = qr_.topRows(rank_);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(trapezoid);
-  Eigen::MatrixXd U = Eigen::MatrixXd::Identity(qr_.cols(), rank_);
-  U.applyOnTheLeft(qr.householderQ());
+  trapezoid_.setZero(qr_.cols(), rank_);
+  trapezoid_.transpose().triangularView<Eigen::Upper>() = qr_.topRows(rank_);
+  trapezoid_qr_.compute(trapezoid_);
+  Eigen::MatrixXd& U = trapezoid_;
+  U.setIdentity();
+  trapezoid_qr_.householderQ().applyThisOnTheLeft(U, reflected_);
   inverse_factor_.resize(rank_, qr_.cols());
   for (Eigen::Index i = 0; i < qr_.cols(); ++i) inverse_factor_.col(order_[i]) = U.row(i).transpose();
-  qr.matrixQR().topRows(rank_).triangularView<Eigen::Upper>().solveInPlace(inverse_factor_);
+  trapezoid_qr_.matrixQR().topRows(rank_).triangularView<Eigen::Upper>().solveInPlace(inverse_factor_);
+}
+
+void Projector::set_row_space(Eigen::MatrixXd& V, Eigen::RowVectorXd& work_space) const {
+  V.setIdentity(qr_.rows(), rank_);
+  if (rank_ > 0) Eigen::householderSequence(qr_, tau_).setLength(rank_).applyThisOnTheLeft(V, work_space);
 }
 
 Eigen::MatrixXd Projector::row_space() const {
-  Eigen::MatrixXd V = Eigen::MatrixXd::Identity(qr_.rows(), rank_);
-  if (rank_ > 0) V.applyOnTheLeft(Eigen::householderSequence(qr_, tau_).setLength(rank_));
+  Eigen::MatrixXd V;
+  Eigen::RowVectorXd work_space;
+  set_row_space(V, work_space);
   return V;
+}
+
+void Projector::form(Eigen::MatrixXd& matrix, Eigen::MatrixXd& pseudo_inverse) {
+  set_row_space(row_space_, reflected_);
+  matrix.setIdentity(qr_.rows(), qr_.rows());
+  matrix.noalias() -= row_space_ * row_space_.transpose();
+  pseudo_inverse.resize(qr_.rows(), qr_.cols());
+  pseudo_inverse.noalias() = row_space_ * inverse_factor_;
 }
 
 Eigen::MatrixXd Projector::pseudo_inverse() const { return row_space() * inverse_factor_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <vector>
 
 namespace prowl {
@@ -13,8 +14,8 @@ namespace prowl {
 ///   P = I − V V',   J⁺ = V T⁻¹ U',   (J J')⁺ = (T⁻¹ U')' (T⁻¹ U')
 ///
 /// Rows may be dependent (flat feet, contacts listed twice) or absent (m = 0: P = I). See docs/theory.md. compute()
-/// finds the rank and (J J')⁺, enough for the inverse form; it allocates only if the shape of J changes or J is rank
-/// deficient. V, J⁺ and P are formed on request.
+/// finds the rank and (J J')⁺, enough for the inverse form; V, J⁺ and P are formed on request. It allocates only if the
+/// shape of J or its rank changes, like the functions with a result to write to.
 class Projector {
  public:
   /// Pivots below this part of the largest count as zero; projector.cpp explains it.
@@ -34,11 +35,13 @@ class Projector {
   Eigen::MatrixXd row_space() const;                                     ///< V, n × rank
   Eigen::MatrixXd pseudo_inverse() const;                                ///< J⁺, n × m
   Eigen::MatrixXd matrix() const;                                        ///< P, n × n
+  void form(Eigen::MatrixXd& matrix, Eigen::MatrixXd& pseudo_inverse);   ///< P and J⁺
 
  private:
   void find_rank(double threshold);
   void factor_full();
   void factor_deficient();
+  void set_row_space(Eigen::MatrixXd& V, Eigen::RowVectorXd& work_space) const;
 
   Eigen::MatrixXd qr_;      // of J', n × m, by DenseKernels::factorise_qr
   Eigen::VectorXd tau_;     // its reflections
@@ -46,6 +49,9 @@ class Projector {
   Eigen::MatrixXd gram_inverse_;
   Eigen::MatrixXd inverse_factor_;  // T⁻¹ U', rank × m
   Eigen::MatrixXd upper_inverse_, permuted_gram_;
+  Eigen::MatrixXd trapezoid_, row_space_;  // work space
+  Eigen::HouseholderQR<Eigen::MatrixXd> trapezoid_qr_;
+  Eigen::RowVectorXd reflected_;
   int rank_ = 0;
   double pivot_ratio_ = 1.0;
 };

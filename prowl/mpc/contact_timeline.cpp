@@ -48,6 +48,8 @@ void ContactTimeline::extend(double now, double until) {
     next_lift_ = std::max(next_lift_, until);
     return;
   }
+  // After a long pause in the same phase of a stride, without the swings that nobody planned.
+  if (next_lift_ < now - kRemembered) next_lift_ += pattern_.stride * std::floor((now - next_lift_) / pattern_.stride);
   while (next_lift_ < until) {
     for (const int foot : pattern_.groups[next_group_]) {
       std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];

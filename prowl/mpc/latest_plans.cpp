@@ -12,7 +12,7 @@ constexpr double kAlways = -std::numeric_limits<double>::infinity();
 }  // namespace
 
 LatestPlans::LatestPlans(const RobotModel& robot, const MpcPlan& first)
-    : robot_(robot), kept_(kKept, Kept{first, kAlways}) {}
+    : robot_(robot), kept_(kLongestDelay + 1, Kept{first, kAlways}) {}
 
 void LatestPlans::swap(std::size_t i, std::size_t j) {
   std::swap(kept_[i].plan.steps(), kept_[j].plan.steps());

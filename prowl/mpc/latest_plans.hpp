@@ -12,8 +12,8 @@ inline constexpr double kTimeRounding = 1e-9;
 /// The latest plans of a controller: the newest that has begun acts. No function allocates but the constructor.
 class LatestPlans {
  public:
-  /// Number of plans: a plan may begin up to three periods after the measurement that it starts from.
-  static constexpr int kKept = 4;
+  /// A plan may begin so many periods after the measurement that it starts from.
+  static constexpr int kLongestDelay = 7;
 
   /// `first`: acts until another begins. The robot must outlive this.
   LatestPlans(const RobotModel& robot, const MpcPlan& first);

@@ -43,8 +43,9 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
     step.length = grid_.step(k);
     old_rows_.push_back(solver_.rows(k));
     old_multipliers_.push_back(program_.multipliers(k));
-    old_lengths_.push_back(grid_.step(k));
+    old_times_.push_back(grid_.time(k));
   }
+  old_times_.push_back(grid_.end());
   program_.use_hessian(options.hessian);
   look(q, t);
   bool solved = false;
@@ -71,7 +72,8 @@ bool MpcController::prepare_from(double start) {
 }
 
 /// Puts the last plan on the new steps: its states, and the means of its accelerations and torques, which keep the
-/// dynamics of steps that end elsewhere.
+/// dynamics of steps that end elsewhere. Distances and multipliers are those of the last program, which is of other
+/// times if it had no solution.
 void MpcController::shift() {
   const int steps = options_.steps;
   const MpcPlan& old_plan = plans_.latest();
@@ -79,21 +81,24 @@ void MpcController::shift() {
     old_rows_[k] = solver_.rows(k);
     old_multipliers_[k] = program_.multipliers(k);
   }
-  const auto old_step = [&](double t) { return static_cast<int>(&old_plan.step_at(t) - old_plan.steps().data()); };
+  const auto old_step = [&](double t) {
+    const auto after_last = std::upper_bound(old_times_.begin() + 1, old_times_.end() - 1, t);
+    return static_cast<std::size_t>(after_last - old_times_.begin()) - 1;
+  };
   old_plan.state(grid_.time(0), q_, v_);
   for (int k = 0; k < steps; ++k) {
-    const int from = old_step(grid_.middle(k));
+    const std::size_t from = old_step(grid_.middle(k));
     old_plan.state(grid_.time(k + 1), q_next_, v_next_);
     a_ = (v_next_ - v_) / grid_.step(k);
     old_plan.mean_torques(grid_.time(k), grid_.time(k + 1), tau_);
     program_.set_stage(k, q_, v_, a_, tau_);
-    const double factor = grid_.step(k) / old_lengths_[static_cast<std::size_t>(from)];
+    const double factor = grid_.step(k) / (old_times_[from + 1] - old_times_[from]);
     StageMultipliers& on = program_.multipliers(k);
-    const StageMultipliers& old = old_multipliers_[static_cast<std::size_t>(from)];
+    const StageMultipliers& old = old_multipliers_[from];
     on.equalities = factor * old.equalities;
     on.inequalities = factor * old.inequalities;
-    on.next = old_multipliers_[static_cast<std::size_t>(std::min(old_step(grid_.time(k + 1)), steps - 2))].next;
-    solver_.rows(k).take_over(old_rows_[static_cast<std::size_t>(from)], factor);
+    on.next = old_multipliers_[std::min(old_step(grid_.time(k + 1)), old_multipliers_.size() - 2)].next;
+    solver_.rows(k).take_over(old_rows_[from], factor);
     HorizonStep& step = program_.step(k);
     step.length = grid_.step(k);
     step.standing = timeline_.standing(grid_.middle(k));
@@ -101,7 +106,7 @@ void MpcController::shift() {
     std::swap(q_, q_next_);
     std::swap(v_, v_next_);
   }
-  for (int k = 0; k < steps; ++k) old_lengths_[static_cast<std::size_t>(k)] = grid_.step(k);
+  for (int k = 0; k <= steps; ++k) old_times_[static_cast<std::size_t>(k)] = grid_.time(k);
 }
 
 bool MpcController::plan_from(const VectorXd& q, const VectorXd& v, double) {

@@ -46,7 +46,7 @@ class MpcController final : public OnlineController {
   double ground_seen_ = 0.0;  ///< [s]
   std::vector<BarrierRows> old_rows_;
   std::vector<StageMultipliers> old_multipliers_;
-  std::vector<double> old_lengths_;
+  std::vector<double> old_times_;  ///< of the nodes to which these belong [s]
   Eigen::VectorXd q_, v_, a_, tau_, q_next_, v_next_;
 };
 

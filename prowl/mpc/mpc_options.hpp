@@ -12,9 +12,10 @@ struct MpcOptions {
   double first_step = 0.015;   ///< [s]
   double least_horizon = 0.6;  ///< [s]; a stride if that is longer
   double clearance = 0.12;     ///< height of a swing, as a share of the robot's standing height [-]
-  double delay = 0.0;          ///< from a measured state to the time at which its plan acts [s]
-  double barrier = 1e-5;       ///< mu, of a step of mean length [-]
-  int iterations = 10;         ///< most of the quadratic program of an update
+  /// From a measured state to the time at which its plan acts [s], at most LatestPlans::kLongestDelay updates later.
+  double delay = 0.0;
+  double barrier = 1e-5;  ///< mu, of a step of mean length [-]
+  int iterations = 10;    ///< most of the quadratic program of an update
   HessianKind hessian = HessianKind::gauss_newton_with_cones;
 };
 

@@ -22,7 +22,7 @@ class MpcPlan {
     unsigned standing = 0;             ///< bit f: foot f stands
     Eigen::VectorXd q, v;              ///< at the start
     Eigen::VectorXd a, tau;            ///< constant over the step
-    Eigen::VectorXd force;             ///< 3 per contact of the robot, world frame [N]
+    Eigen::VectorXd force;             ///< 3 per contact of the robot, world frame, as first guessed for this plan [N]
     Eigen::MatrixXd gain;              ///< K, nu x 2 nv
   };
 

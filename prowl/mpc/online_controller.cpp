@@ -1,8 +1,20 @@
 #include "prowl/mpc/online_controller.hpp"
 
+#include <cmath>
+
 #include "prowl/mpc/standing_robot.hpp"
 
 namespace prowl {
+namespace {
+
+/// Beyond these a measured state is an error. Velocities: of the base over sqrt(g size), all others times
+/// sqrt(size / g). Motors are slower by a factor of ten; at much larger ones a prediction is not finite.
+constexpr double kFastest = 100.0;
+constexpr double kFarthest = 1e6;      ///< [m]: doubles tell micrometres there, and are more than accurate enough
+constexpr double kMostTurned = 1e3;    ///< joints [rad]
+constexpr double kUnitRounding = 0.1;  ///< of the norm of a quaternion [-]
+
+}  // namespace
 
 using Eigen::VectorXd;
 
@@ -22,6 +34,11 @@ OnlineController::OnlineController(const RobotModel& robot, double delay, const 
 
 bool OnlineController::prepare(double t) {
   ++counters_.updates;
+  if (!std::isfinite(t)) {
+    ++counters_.failed;
+    ++counters_.bad_states;
+    return false;
+  }
   start_ = t + delay_;
   const bool is_ready = prepare_from(start_);
   if (!is_ready) ++counters_.failed;
@@ -29,19 +46,29 @@ bool OnlineController::prepare(double t) {
 }
 
 bool OnlineController::plan(const VectorXd& q, const VectorXd& v, double t) {
-  if (!q.allFinite() || !v.allFinite()) {
+  const auto fail = [this] {
     ++counters_.failed;
     ++counters_.bad_states;
     return false;
-  }
-  look(q, t);
+  };
+  if (!std::isfinite(t) || !is_state(q, v)) return fail();
   q_ = q;
   v_ = v;
   prediction_.predict(plans_, timeline_, t, start_, q_, v_);
+  if (!is_state(q_, v_)) return fail();
+  look(q, t);
   lead_.stay_near(q_, robot_.size());
   const bool has_plan = plan_from(q_, v_, t);
   if (!has_plan) ++counters_.failed;
   return has_plan;
+}
+
+bool OnlineController::is_state(const VectorXd& q, const VectorXd& v) const {
+  const double time = std::sqrt(robot_.size() / RobotModel::kGravity);
+  return q.allFinite() && v.allFinite() && q.head<3>().norm() < kFarthest &&
+         std::abs(q.segment<4>(3).norm() - 1.0) < kUnitRounding &&
+         q.tail(robot_.nu()).cwiseAbs().maxCoeff() < kMostTurned &&
+         v.head<3>().norm() < kFastest * robot_.size() / time && v.tail(robot_.nv() - 3).norm() < kFastest / time;
 }
 
 void OnlineController::torque(double t, const VectorXd& q, const VectorXd& v, VectorXd& tau) {

@@ -15,7 +15,7 @@ namespace prowl {
 struct MpcCounters {
   long updates = 0;
   long failed = 0;       ///< updates without a new plan: the last one went on
-  long bad_states = 0;   ///< of these: the measured state was not finite
+  long bad_states = 0;   ///< of these: the measured state was none, or led to none
   long regularised = 0;  ///< updates whose Hessian was not convex
   long restarted = 0;    ///< updates that forgot multipliers, as the one before had failed or was cut short
   long damped = 0;       ///< torques after the end of the last plan: joints are damped
@@ -45,7 +45,8 @@ class OnlineController {
   /// of its swing has landed.
   void feel_contacts(const std::vector<bool>& touches, double t) { timeline_.feel(touches, t, delay_); }
 
-  /// Plans from the state (q, v) measured at time t [s]. False if there is no new plan: the last one goes on.
+  /// Plans from the state (q, v) measured at time t [s]. False if there is no new plan: the last one goes on. So it
+  /// does after values that are not finite, or that no robot reaches.
   bool update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) { return prepare(t) && plan(q, v, t); }
   /// The two parts of update(): everything that can be done before the state is measured, and the rest.
   bool prepare(double t);
@@ -85,6 +86,8 @@ class OnlineController {
   MpcCounters counters_;
 
  private:
+  bool is_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const;
+
   double delay_, start_;
   StatePrediction prediction_;
   Eigen::VectorXd q_, v_;  ///< expected at start_

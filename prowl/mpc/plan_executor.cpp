@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "prowl/mpc/latest_plans.hpp"
-
 namespace prowl {
 
 PlanExecutor::PlanExecutor(const RobotModel& robot, const MpcPlan& first)

@@ -3,7 +3,7 @@
 #include <mutex>
 #include <vector>
 
-#include "prowl/mpc/mpc_plan.hpp"
+#include "prowl/mpc/latest_plans.hpp"
 
 namespace prowl {
 
@@ -11,8 +11,8 @@ namespace prowl {
 /// begun. Nothing is allocated after construction.
 class PlanExecutor {
  public:
-  /// Plans that may wait for their start: one may begin up to three periods after its measurement.
-  static constexpr std::size_t kMostPending = 4;
+  /// Plans that may wait for their start.
+  static constexpr std::size_t kMostPending = LatestPlans::kLongestDelay + 1;
 
   /// Begins with a plan, e.g. MpcController::latest() after its construction.
   PlanExecutor(const RobotModel& robot, const MpcPlan& first);

@@ -44,8 +44,9 @@ SteppingPattern stepping_pattern(const RobotModel& robot, const std::vector<std:
   }
   const std::optional<Feet> corners = feet.size() == 4 ? find_feet(robot) : std::nullopt;
   if (!corners)
-    throw InputError(
-        fmt::format("gait: {} cannot {}; need a robot with one foot at each corner of its base", robot.name(), gait));
+    throw InputError(fmt::format(
+        "gait: {} cannot {}; need {}", robot.name(), gait,
+        feet.size() == 2 ? "walk or stand on two feet" : "a robot with one foot at each corner of its base"));
   for (const std::vector<Foot>& swings : gait_pattern(gait).swings) {
     std::vector<int>& group = pattern.groups.emplace_back();
     for (const Foot corner : swings) {

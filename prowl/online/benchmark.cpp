@@ -16,7 +16,7 @@ using Events = BenchmarkRow::Events;
 
 constexpr double kCommands = 0.5;  ///< largest random velocities [m/s] and turn rates [rad/s]
 constexpr double kOneKick = 6.0, kShort = 20.0, kLong = 60.0, kTicks = 1000.0, kHour = 3600.0;  // [s]
-constexpr int kCurveSeeds = 20, kFewSeeds = 50, kManySeeds = 200;
+constexpr int kCurveSeeds = 10, kFewSeeds = 50, kManySeeds = 200;
 constexpr double kPayload = 0.2;  ///< of the robot's mass
 constexpr double kSlippery = 0.4;
 constexpr double kSlope = 10.0;                         // [degrees]

@@ -81,6 +81,8 @@ void OnlineMeasures::finish(OnlineResult& result) const {
     result.failures = {fmt::format("the simulation diverged at {:.2f} s", result.end_time)};
     return;
   }
+  if (result.counters.updates > 0 && result.counters.failed == result.counters.updates)
+    result.failures.push_back(fmt::format("no plan: {} updates failed", result.counters.failed));
   for (const std::string& touch : result.touches) result.failures.push_back("touched: " + touch);
   if (result.last_velocity > kMostLastVelocity)
     result.failures.push_back(fmt::format("mean velocity of the last second {:.2f} m/s off the command; {:g} allowed",

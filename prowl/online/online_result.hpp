@@ -18,7 +18,8 @@ struct OnlineSample {
   Eigen::Vector3d commanded = Eigen::Vector3d::Zero();  ///< the same, as the controller follows it
 };
 
-/// Plans whose forces left their friction cones in the part that was executed, by more than 1 % of the robot's weight.
+/// Plans whose forces leave their friction cones by more than 1 % of the robot's weight: in the middle of the part that
+/// is executed, on level ground with the friction that the controller counts on.
 struct ForceCount {
   long plans = 0, outside = 0;
   double share() const { return plans > 0 ? static_cast<double>(outside) / static_cast<double>(plans) : 0.0; }
@@ -30,11 +31,12 @@ struct OnlineResult {
   End end = End::finished;
   double end_time = 0.0;              ///< [s]
   std::vector<std::string> failures;  ///< in words; empty: success
-  std::vector<std::string> notes;     ///< commands that were out of range, in words
+  std::vector<std::string> notes;     ///< commands out of range, and what comes after the end, in words
   bool success() const { return failures.empty(); }
 
+  // Errors are from the command that the controller follows: within what the legs allow, and smoothed.
   double velocity_error = 0.0;        ///< RMS error of the base's horizontal velocity [m/s]
-  double turn_error = 0.0;            ///< RMS of its turn rate from the command [rad/s]
+  double turn_error = 0.0;            ///< RMS error of its turn rate [rad/s]; not judged
   double last_velocity = 0.0;         ///< distance of the mean velocity of the last second from the command [m/s]
   double largest_torque_share = 0.0;  ///< of the limit [-]; infinite if a joint is faster than its limits allow
   long control_steps = 0;

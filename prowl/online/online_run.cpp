@@ -49,10 +49,17 @@ void check(const OnlineOptions& options) {
   check_option(options.budget >= 0.0 && options.budget <= 0.2, "budget", options.budget, "0 to 0.2 s");
   check_option(options.mpc.friction > 0.0 && std::isfinite(options.mpc.friction), "friction", options.mpc.friction,
                "> 0");
-  check_option(options.budget <= (LatestPlans::kKept - 1) * options.period, "budget", options.budget,
-               "at most three periods");
   check_option(options.simulation.delay >= 0.0 && options.simulation.delay <= 0.05, "delay", options.simulation.delay,
                "0 to 0.05 s");
+  check_option(options.budget + options.simulation.delay <= LatestPlans::kLongestDelay * options.period, "budget",
+               options.budget, "at most seven periods, together with the delay");
+}
+
+void check(const std::vector<Push>& pushes) {
+  for (const Push& push : pushes) {
+    check_option(push.time >= 0.0 && std::isfinite(push.time), "push", push.time, "a time of 0 s or later");
+    for (const double part : push.impulse) check_option(std::isfinite(part), "push", part, "finite impulses");
+  }
 }
 
 /// A posture on level ground, turned about the origin with the ground.
@@ -97,6 +104,7 @@ class Run {
     for (const TimedCommand& timed : options.commands) {
       if (!timed.gait.empty()) pattern_of(timed.gait);  // throws before the run if the robot cannot do it
     }
+    tell_what_comes_too_late();
     pending_.assign(1 + static_cast<std::size_t>(std::lround(options.simulation.delay / period_)), tau_);
     follow(options.gait);
     physics_.set_state(start_, VectorXd::Zero(robot.nv()));
@@ -135,6 +143,15 @@ class Run {
     return stepping_pattern(robot_, mpc_->feet(), standing_.z(), gait);
   }
   void follow(const std::string& gait) { mpc_->follow(pattern_of(gait)); }
+  void tell_what_comes_too_late() {
+    const auto tell = [&](const char* what, double time) {
+      if (time >= options_.duration) note(fmt::format("{} at {:g} s is after the end of the run", what, time));
+    };
+    for (const TimedCommand& timed : options_.commands) {
+      if (timed.command != MpcCommand{} || !timed.gait.empty()) tell("command", timed.time);
+    }
+    for (const Push& push : options_.simulation.pushes) tell("push", push.time);
+  }
 
   void sense(double t) {
     for (std::size_t f = 0; f < touches_.size(); ++f) {
@@ -197,6 +214,8 @@ class Run {
     result_.walls.push_back(wall_seconds() - wall_began);
     result_.feedbacks.push_back(ended - prepared);
     const std::size_t index = result_.times.size();
+    if (index > 0 && index == options_.replayed_times.size())
+      note(fmt::format("replayed times end at {:.2f} s; plans take their own from there on", t));
     const double seconds =
         index < options_.replayed_times.size() ? options_.replayed_times[index] : mpc_->computing_time(ended - began);
     result_.times.push_back(seconds);
@@ -301,6 +320,7 @@ Surface ground_of(const OnlineOptions& options) {
 
 OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options, const OnlineWatcher& watch) {
   check(options);
+  check(options.simulation.pushes);
   return Run(robot, options)(watch);
 }
 

@@ -35,7 +35,7 @@ struct OnlineOptions {
   std::vector<TimedCommand> commands;  ///< in the order of time; before the first: stay
   double duration = 10.0;              ///< [s]
   double period = 0.01;                ///< between two plans [s]
-  double budget = 0.01;                ///< computing time allowed for a plan [s]; at most three periods
+  double budget = 0.01;                ///< computing time allowed for a plan [s]; with the delay at most seven periods
   LatePlans late = LatePlans::act;
   /// Computing times of plans [s], in order, in place of those measured: repeats a run with LatePlans::drop or wait.
   std::vector<double> replayed_times = {};

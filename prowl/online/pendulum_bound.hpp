@@ -12,8 +12,8 @@ namespace prowl {
 /// rest above the foot. Koolen et al., Capturability-based analysis and control of legged locomotion, IJRR 2012:
 /// infinitely many steps.
 ///
-/// The reach is that of a stretched leg at standing height `height` [m], from below its hip to either side: an upper
-/// bound, as joint limits and the feet that stand already are left out.
+/// The reach is that of a stretched leg at standing height `height` [m], from below its hip to either side. Joint
+/// limits, which reduce the bound, and feet that stand already, which raise it, are left out.
 double pendulum_bound(const RobotModel& robot, const std::vector<std::vector<int>>& feet, double height,
                       const SteppingPattern& pattern);
 

@@ -17,6 +17,8 @@ std::mt19937_64 stream_of(const OnlineOptions& options, std::uint64_t stream) {
 }  // namespace
 
 void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options) {
+  check_option(options.duration > kKickEvery + kAfterKick, "duration", options.duration,
+               "more than 3.9 s: the first kick comes after 2 s, and none in the last 1.9 s");
   std::mt19937_64 random = stream_of(options, kKickStream);
   for (double t = kKickEvery; t < options.duration - kAfterKick; t += kKickEvery) {
     options.simulation.pushes.push_back({speed * robot.mass() * draw_direction(random), t});

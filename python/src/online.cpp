@@ -42,16 +42,19 @@ class ControllerObject {
         controller_(robot_, options(delay, friction), standing_on_ground(robot_), Eigen::VectorXd::Zero(robot.nv()),
                     0.0),
         executor_(robot_, controller_.latest()) {
-    if (!(period > 0.0)) throw InputError(fmt::format("period: {} is not allowed; need > 0 s", period));
+    check_option(period >= 1e-3 && period <= 0.2, "period", period, "0.001 to 0.2 s");
+    check_option(delay <= LatestPlans::kLongestDelay * period, "delay", delay, "at most seven periods");
     follow(gait);
   }
 
   void follow(const std::string& gait) {
+    const nb::gil_scoped_release others_may_run;
     const std::lock_guard guard(planning_);
     const double height = controller_.standing_posture().z();
     controller_.follow(stepping_pattern(robot_, controller_.feet(), height, gait));
   }
   std::array<double, 4> command(double forward, double left, double turn, double height) {
+    const nb::gil_scoped_release others_may_run;
     const std::lock_guard guard(planning_);
     const MpcCommand kept = controller_.command({forward, left, turn, height});
     return {kept.forward, kept.left, kept.turn, kept.height};
@@ -64,7 +67,7 @@ class ControllerObject {
     const nb::gil_scoped_release others_may_run;
     const std::lock_guard guard(planning_);
     if (touches) controller_.feel_contacts(*touches, t);
-    next_ = t + period_;
+    if (std::isfinite(t)) next_ = t + period_;
     const bool has_plan = controller_.update(q, v, t);
     if (has_plan) executor_.offer(controller_.latest());
     return has_plan;
@@ -76,11 +79,12 @@ class ControllerObject {
     return new_array(tau);
   }
   long failed() {
+    const nb::gil_scoped_release others_may_run;
     const std::lock_guard guard(planning_);
     return controller_.counters().failed;
   }
   Array step(double t, const State& q, const State& v, const std::optional<std::vector<bool>>& touches) {
-    if (t >= next_ - kTimeRounding) update(t, q, v, touches);
+    if (is_due(t)) update(t, q, v, touches);
     return torque(t, q, v);
   }
 
@@ -90,8 +94,6 @@ class ControllerObject {
  private:
   static MpcOptions options(double delay, double friction) {
     MpcOptions options;
-    if (!(delay >= 0.0)) throw InputError(fmt::format("delay: {} is not allowed; need >= 0 s", delay));
-    if (!(friction > 0.0)) throw InputError(fmt::format("friction: {} is not allowed; need > 0", friction));
     options.delay = delay;
     options.friction = friction;
     return options;
@@ -100,6 +102,12 @@ class ControllerObject {
     if (q.size() == robot_.nq() && v.size() == robot_.nv()) return;
     throw InputError(
         fmt::format("q, v: {} and {} numbers; need {} and {}", q.size(), v.size(), robot_.nq(), robot_.nv()));
+  }
+
+  bool is_due(double t) {
+    const nb::gil_scoped_release others_may_run;
+    const std::lock_guard guard(planning_);
+    return t >= next_ - kTimeRounding;
   }
 
   RobotModel robot_;

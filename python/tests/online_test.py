@@ -18,7 +18,7 @@ def hyq():
 
 
 def test_the_command_runs_the_same(hyq):
-    run = prowl.run_online(hyq, command=(0.2, 0.0, 0.1), kicks=0.3, duration=3.0, seed=5, friction=0.7)
+    run = prowl.run_online(hyq, command=(0.2, 0.0, 0.1), kicks=0.3, duration=4.5, seed=5, friction=0.7)
     command = [
         COMMAND,
         "mpc",
@@ -30,7 +30,7 @@ def test_the_command_runs_the_same(hyq):
         "--kicks",
         "0.3",
         "--duration",
-        "3",
+        "4.5",
         "--seed",
         "5",
         "--friction",
@@ -84,6 +84,10 @@ def test_bad_input(hyq):
         controller.update(0.0, controller.standing, np.zeros(18), [True])
     assert not controller.update(0.0, np.full(19, np.nan), np.zeros(18))
     assert np.isfinite(controller.torque(0.0, np.full(19, np.nan), np.zeros(18))).all()
+    for t in (np.nan, np.inf, 0.02):
+        assert np.isfinite(controller.step(t, controller.standing, np.zeros(18))).all()
+    with pytest.raises(prowl.InputError, match="push"):
+        prowl.run_online(hyq, pushes=[(np.nan, (0.0, 1.0, 0.0))])
 
 
 def test_a_planner_of_ones_own(hyq):

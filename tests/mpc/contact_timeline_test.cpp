@@ -70,6 +70,18 @@ TEST(ContactTimeline, ALateFootIsAwaited) {
   EXPECT_EQ(lost.swing(0, 0.2 + ContactTimeline::kMostLate + 0.011), nullptr);
 }
 
+TEST(ContactTimeline, GoesOnAfterALongPause) {
+  ContactTimeline timeline(4, 0.0), steady(4, 0.0);
+  timeline.follow(kTrot);
+  steady.follow(kTrot);
+  timeline.extend(0.0, 1.0);
+  for (double t = 0.0; t < 100.0; t += 0.5) steady.extend(t, t + 1.0);
+  timeline.extend(100.0, 101.0);
+  steady.extend(100.0, 101.0);
+  for (double t = 100.005; t < 101.0; t += 0.01) EXPECT_EQ(timeline.standing(t), steady.standing(t)) << t;
+  timeline.extend(1e12, 1e12 + 1.0);  // at once
+}
+
 TEST(ContactTimeline, RefusesPatternsThatItCannotFollow) {
   ContactTimeline timeline(4, 0.0);
   SteppingPattern endless = kTrot;

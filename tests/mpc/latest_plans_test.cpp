@@ -64,11 +64,12 @@ TEST(LatestPlans, TheNewestThatHasBegunActsAtEachTick) {
   }
 }
 
-TEST(LatestPlans, DelaysOfThreePeriodsAreCovered) {
+TEST(LatestPlans, TheLongestDelayIsCovered) {
+  constexpr int kDelay = LatestPlans::kLongestDelay;
   Plans run;
   for (int k = 0; k < 20; ++k) {
-    run.add(0.01 * k + 0.03, 2.0 + k);
-    if (k >= 3) EXPECT_EQ(run.torque(0.01 * k), 2.0 + k - 3) << k;
+    run.add(0.01 * (k + kDelay), 2.0 + k);
+    if (k >= kDelay) EXPECT_EQ(run.torque(0.01 * k), 2.0 + k - kDelay) << k;
   }
 }
 

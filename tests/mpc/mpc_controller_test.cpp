@@ -17,12 +17,13 @@ namespace {
 using Eigen::VectorXd;
 
 struct Standing {
-  explicit Standing(const RobotDescription& description = test::hyq_description())
+  explicit Standing(const RobotDescription& description = test::hyq_description(), const MpcOptions& options = {})
       : robot(description),
         q(HorizonProgram(robot, MpcWeights{}, 0.6, 2).standing_posture()),
         v(VectorXd::Zero(robot.nv())),
-        mpc(robot, MpcOptions{}, q, v, 0.0) {}
-  void trot() { mpc.follow(stepping_pattern(robot, mpc.feet(), q.z(), "trot")); }
+        mpc(robot, options, q, v, 0.0) {}
+  void trot() { follow("trot"); }
+  void follow(const std::string& gait) { mpc.follow(stepping_pattern(robot, mpc.feet(), q.z(), gait)); }
 
   RobotModel robot;
   VectorXd q, v;
@@ -147,6 +148,63 @@ TEST(MpcController, SurvivesStatesThatAreNone) {
   EXPECT_LT(last_failure, 30) << "of 50 updates";
 }
 
+/// Such as a velocity over two equal time stamps.
+TEST(MpcController, RecoversFromStatesAndTimesThatNoRobotReaches) {
+  Standing standing(test::hyq_description(), {.delay = 0.012});
+  standing.trot();
+  follow_plan(standing, 0.0, 0.5);
+  double t = 0.5;
+  const auto good = [&] {
+    standing.mpc.latest().state(t, standing.q, standing.v);
+    return standing.mpc.update(standing.q, standing.v, t);
+  };
+  VectorXd tau;
+  for (const double wild : {1e3, 1e6, 1e20, 1e160}) {
+    for (const int i : {0, 3, 9}) {
+      VectorXd q = standing.q, v = standing.v;
+      v(i) = wild;
+      EXPECT_FALSE(standing.mpc.update(q, v, t += 0.01)) << i << ' ' << wild;
+      standing.mpc.torque(t, q, v, tau);
+      EXPECT_TRUE(tau.allFinite()) << i << ' ' << wild;
+      q(i) = wild;
+      v = standing.v;
+      standing.mpc.update(q, v, t += 0.01);
+      standing.mpc.torque(t, q, v, tau);
+      EXPECT_TRUE(tau.allFinite()) << i << ' ' << wild;
+      int failures = 0;
+      for (int after = 0; after < 50; ++after, t += 0.01) failures += good() ? 0 : 1;
+      EXPECT_LT(failures, 10) << i << ' ' << wild;
+    }
+  }
+  for (const double time : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    EXPECT_FALSE(standing.mpc.update(standing.q, standing.v, time));
+  EXPECT_TRUE(good());
+  t += 1e7;  // a clock that was set
+  standing.mpc.update(standing.q, standing.v, t);
+  int failures = 0;
+  for (int after = 0; after < 50; ++after, t += 0.01)
+    failures += standing.mpc.update(standing.q, standing.v, t) ? 0 : 1;
+  EXPECT_LT(failures, 20);
+}
+
+/// Without new plans the next program still begins with the multipliers of its own times.
+TEST(MpcController, KeepsWhatItKnowsOfLimitsWhileStatesAreMissing) {
+  Standing standing;
+  standing.trot();
+  follow_plan(standing, 0.0, 1.0);
+  VectorXd nan = standing.q;
+  nan(8) = std::numeric_limits<double>::quiet_NaN();
+  constexpr int kUpdates = 15;
+  int iterations = 0;
+  for (int i = 0; i < kUpdates; ++i) {
+    const double t = 1.0 + 0.01 * i;
+    ASSERT_TRUE(standing.mpc.prepare(t));
+    iterations += standing.mpc.solver().iterations();
+    EXPECT_FALSE(standing.mpc.plan(nan, standing.v, t));
+  }
+  EXPECT_LT(iterations, 4 * kUpdates);
+}
+
 TEST(MpcController, ClampsCommandsToWhatTheLegsAllow) {
   Standing standing;
   MpcCommand command;
@@ -169,12 +227,14 @@ TEST(MpcController, RefusesAGaitWithoutTheFeetForIt) {
 }
 
 #ifdef PROWL_COUNTS_ALLOCATIONS
-TEST(MpcController, AllocatesNothingOnceItRuns) {
-  Standing standing;
-  standing.trot();
+class AllocatesNothing : public testing::TestWithParam<RobotDescription (*)()> {};
+
+TEST_P(AllocatesNothing, OnceItRuns) {
+  Standing standing(GetParam()(), {.delay = 0.012});
+  standing.follow("walk");
   follow_plan(standing, 0.0, 2.0);  // all sets of contacts of the gait have been
   VectorXd tau(standing.robot.nu());
-  const std::vector<bool> touches(4, false);
+  const std::vector<bool> touches(standing.mpc.feet().size(), false);
   long allocated = 0;
   for (double t = 2.0; t < 3.0; t += 0.01) {
     standing.mpc.latest().state(t, standing.q, standing.v);
@@ -186,6 +246,9 @@ TEST(MpcController, AllocatesNothingOnceItRuns) {
   }
   EXPECT_EQ(allocated, 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(MpcController, AllocatesNothing,
+                         testing::Values(&test::hyq_description, &test::talos_description));
 #endif
 
 }  // namespace

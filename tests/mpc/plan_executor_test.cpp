@@ -72,7 +72,8 @@ TEST(PlanExecutor, NeverMixesTwoPlans) {
     done = true;
   });
   double before = 0.0;
-  while (!done) {
+  for (bool is_last = false; !is_last;) {
+    is_last = done;
     const double now = one.torque(0.1);
     EXPECT_TRUE((one.tau.array() == now).all());
     EXPECT_GE(now, before);

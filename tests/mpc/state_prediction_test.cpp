@@ -70,8 +70,7 @@ TEST_P(StatePredictionOf, ARobotInTheAirFalls) {
   EXPECT_LT((centroidal.com() - com - kTime * velocity).norm(), RobotModel::kGravity * kTime * kTime);
 }
 
-/// Halving its steps halves the error: it is of first order.
-TEST_P(StatePredictionOf, StepsAreSmallEnough) {
+TEST_P(StatePredictionOf, IsNearThatWithShortSteps) {
   move();
   const VectorXd q_before = q, v_before = v;
   predict(0.0, 0.012);

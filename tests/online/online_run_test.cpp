@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/online/random_events.hpp"
 #include "tests/support/robots.hpp"
 
 namespace prowl {
@@ -111,6 +113,32 @@ TEST(OnlineRun, RefusesOptionsOutOfRange) {
   options = {};
   options.budget = -1.0;
   EXPECT_THROW(run_online(robot, options), InputError);
+  options = {};
+  options.budget = 0.05;
+  options.simulation.delay = 0.03;
+  EXPECT_THROW(run_online(robot, options), InputError) << "more than the kept plans cover";
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Push& push : {Push{{0.0, nan, 0.0}, 0.1}, Push{{0.0, 1.0, 0.0}, nan}, Push{{0.0, 1.0, 0.0}, -1.0}}) {
+    options = {};
+    options.simulation.pushes = {push};
+    EXPECT_THROW(run_online(robot, options), InputError);
+  }
+  options = {};
+  options.duration = 3.0;
+  EXPECT_THROW(add_kicks(robot, 0.5, options), InputError) << "without a kick";
+}
+
+TEST(OnlineRun, TellsWhatItDoesNotDo) {
+  const RobotModel robot(test::hyq_description());
+  OnlineOptions options = commanded(0.2);
+  options.duration = 0.3;
+  options.simulation.pushes = {{{0.0, 1.0, 0.0}, 1.0}};
+  options.replayed_times.assign(10, 1e-3);
+  const OnlineResult result = run_online(robot, options);
+  ASSERT_EQ(result.notes.size(), 3U);
+  EXPECT_NE(result.notes[0].find("command at 0.5 s"), std::string::npos) << result.notes[0];
+  EXPECT_NE(result.notes[1].find("push at 1 s"), std::string::npos) << result.notes[1];
+  EXPECT_NE(result.notes[2].find("replayed times end at 0.10 s"), std::string::npos) << result.notes[2];
 }
 
 }  // namespace

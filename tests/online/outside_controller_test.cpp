@@ -55,6 +55,19 @@ TEST(OutsideController, StandsByItsPlanner) {
   for (const double seconds : result.times) EXPECT_EQ(seconds, kTakes);
 }
 
+TEST(OutsideController, IsToldThatItDidNotFollowItsCommand) {
+  Holding hold;
+  OnlineOptions options;
+  options.gait = "stand";
+  options.duration = 2.0;
+  options.planner = std::ref(hold);
+  options.commands = {{.time = 0.0, .command = {.forward = 0.3}}};
+  const OnlineResult result = run_online(hold.robot, options);
+  EXPECT_NEAR(result.last_velocity, 0.3, 0.02);
+  ASSERT_EQ(result.failures.size(), 1U);
+  EXPECT_NE(result.failures.front().find("off the command"), std::string::npos) << result.failures.front();
+}
+
 TEST(OutsideController, WaitsForPlansThatTakeLong) {
   Holding hold;
   const OnlineResult result = hold.run(LatePlans::wait, std::ref(hold));
@@ -75,6 +88,7 @@ TEST(OutsideController, WithoutAPlanTheLastOneGoesOnThenJointsAreDamped) {
   const OnlineResult none = hold.run(LatePlans::act, [](const auto&, auto&) { return std::nullopt; });
   EXPECT_EQ(none.counters.failed, none.counters.updates);
   EXPECT_GT(none.counters.damped, 0);
+  EXPECT_FALSE(none.success());
   const OnlineResult bad = hold.run(LatePlans::act, [&](const MotionRequest& request, auto& steps) {
     const std::optional<double> seconds = hold(request, steps);
     if (request.time > 0.5) steps.front().gain(0, 0) = std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,5 @@
 prowl_test(online/online_run prowl::online)
+prowl_test(online/online_measures prowl::online)
 prowl_test(online/outside_controller prowl::online)
 prowl_test(online/script_file prowl::online)
 prowl_test(online/benchmark prowl::online)

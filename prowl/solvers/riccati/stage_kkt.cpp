@@ -50,6 +50,8 @@ StageKkt::StageKkt(LinearisedChain& chain, Start start) : chain_(chain), num_sta
       s.size = {s.size.variables(), 0, s.size.equalities, s.size.inequalities};  // no stage leads to these states
     const int variables = s.size.variables(), next = k + 1 < num_stages_ ? chain.size(k + 1).states : 0;
     for (int i = 0; i < variables; ++i) s.order.push_back(i);
+    // Online nothing may be allocated where a stage first needs full pivoting.
+    if (start == Start::given) s.full_lu = Eigen::FullPivLU<MatrixXd>(s.size.equalities, s.size.inputs);
     s.P.setZero(s.size.states, s.size.states);
     s.p.setZero(s.size.states);
     steps_.push_back(VectorXd::Zero(variables));
