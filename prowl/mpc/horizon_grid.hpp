@@ -25,9 +25,17 @@ class HorizonGrid {
   int step_at(double t) const;
 
  private:
-  std::vector<double> nominal_;  ///< from 0
+  /// Between two switches, in steps of the grid without switches.
+  struct Span {
+    double begin, end;
+    int steps;
+  };
+  double index_at(double t) const;
+  double time_at(double index) const;
+
+  std::vector<double> nominal_;  ///< times of the grid without switches, from 0
   std::vector<double> times_, switches_;
-  std::vector<int> snapped_;  ///< indices of times at switches, and both ends
+  std::vector<Span> spans_;
 };
 
 }  // namespace prowl
