@@ -151,12 +151,13 @@ void add_world_options(CLI::App& verb, MpcArguments& arguments) {
   const std::vector<CLI::Option*> all = {
       verb.add_option("--push", arguments.push, "Push the base at this time with this impulse for 0.1 s; repeatable")
           ->type_name("T X Y Z"),
-      verb.add_option("--kicks", arguments.kicks,
-                      "Push it every 2 s in a random horizontal direction with an impulse of its mass times this speed")
+      verb.add_option(
+              "--kicks", arguments.kicks,
+              "Push the base every 2 s in a random horizontal direction; impulse: the robot's mass times this speed")
           ->type_name("MPS")
           ->check(number_in(NumberRange::nonnegative())),
       verb.add_option("--friction", arguments.friction,
-                      fmt::format("Friction of the ground; default {:g}, which the controller counts on",
+                      fmt::format("Friction of the ground; default {:g}, which the controller assumes",
                                   arguments.options.mpc.friction))
           ->type_name("X")
           ->check(number_in(NumberRange::positive())),
@@ -171,7 +172,7 @@ void add_world_options(CLI::App& verb, MpcArguments& arguments) {
           ->type_name("X")
           ->check(number_in(NumberRange::nonnegative())),
       verb.add_option("--delay", arguments.delay_ms,
-                      fmt::format("From sensors to torques; default {:g}", arguments.delay_ms))
+                      fmt::format("Sensor-to-torque delay; default {:g}", arguments.delay_ms))
           ->type_name("MS")
           ->check(number_in({.lower = 0.0, .upper = 50.0})),
       verb.add_flag("--perfect-state", simulation.perfect_state, "Give the controller the true state"),
@@ -183,12 +184,11 @@ void add_world_options(CLI::App& verb, MpcArguments& arguments) {
 
 void add_page_options(CLI::App& verb, MpcArguments& arguments) {
   CLI::Option* const view = verb.add_flag("--view", arguments.view,
-                                          "Run at the pace of the clock; a page in the browser takes commands and "
+                                          "Run in real time; a page in the browser takes commands and "
                                           "kicks");
   view->group(kPages);
-  CLI::Option* const foxglove =
-      verb.add_flag("--foxglove", arguments.foxglove,
-                    "Run at the pace of the clock; Foxglove shows the robot, and its panel Teleop commands it");
+  CLI::Option* const foxglove = verb.add_flag(
+      "--foxglove", arguments.foxglove, "Run in real time; Foxglove shows the robot, and its Teleop panel commands it");
   foxglove->excludes(view)->group(kPages);
   for (const char* const other : {"--save-times", "--replay-times", "--push", "--slope"}) foxglove->excludes(other);
   verb.add_option("--port", arguments.port,
@@ -217,7 +217,7 @@ void add_benchmark_options(CLI::App& verb, MpcArguments& arguments) {
       verb.add_option("--rows", benchmark.rows, "Only these rows, with commas between; default: all")
           ->delimiter(',')
           ->type_name("NAMES"),
-      verb.add_option("--runs", benchmark.seeds, "Runs of each row at most; default: 1, 50 or 200")
+      verb.add_option("--runs", benchmark.seeds, "Runs of each row at most; default: 1 to 200")
           ->check(CLI::Range(1, 1000000))
           ->type_name("N"),
       verb.add_option("--first-seed", benchmark.first_seed,
@@ -261,7 +261,7 @@ void add_mpc_command(CLI::App& app, int& status) {
       ->check(number_in({.lower = 0.0, .upper = 200.0}));
   verb->add_option(
           "--late", arguments->late,
-          "Plan over budget: act (default) uses it at the end of the budget, which every machine repeats; drop "
+          "Plan over budget: act (default) uses it at the end of the budget, reproducible on any machine; drop "
           "loses it; wait uses it when it is ready, and measures the next state then")
       ->check(one_of(late_plans_names()))
       ->type_name("NAME");

@@ -74,7 +74,7 @@ void BarrierRows::center(Side& side, Index row, double value, double mu) {
   side.z(row) = std::min(mu / side.d(row), 0.999 * rho);
 }
 
-void BarrierRows::take_over(const BarrierRows& from, double factor) {
+void BarrierRows::copy(const BarrierRows& from, double factor) {
   const auto take = [factor](const Side& source, Side& side) {
     side.at = source.at;
     side.d = source.d;

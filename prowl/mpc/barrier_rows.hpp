@@ -11,8 +11,8 @@ namespace prowl {
 ///
 ///   sign (r - bound) = d - t,   z d = mu,   (penalty - z) t = mu
 ///
-/// Distances and multipliers need not fit each other: a measured state comes as it is. A step that a bound would stop
-/// may be taken as a whole: then that bound's distance does not fit its row any more, until later steps.
+/// These equations need not hold at first: a measured state may violate bounds. A step that a bound would stop may be
+/// taken in full: that bound's distance then differs from its row until later steps.
 class BarrierRows {
  public:
   static constexpr double kHard = std::numeric_limits<double>::infinity();
@@ -26,8 +26,8 @@ class BarrierRows {
   const Eigen::VectorXd& upper() const { return upper_.at; }
   /// Lets all bounds start like that.
   void reset();
-  /// Takes distances, multipliers and elastic variables over from a neighbouring stage; multipliers times `factor`.
-  void take_over(const BarrierRows& from, double factor);
+  /// Copies bounds, distances, multipliers and elastic variables from a neighbouring stage; multipliers times `factor`.
+  void copy(const BarrierRows& from, double factor);
 
   /// Leaves room for a new set of active bounds: distances of at least `distance`, and multipliers that neither vanish
   /// nor exhaust their penalty, as on the path of mu.

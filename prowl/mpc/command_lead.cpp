@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// The place to which the command has led stays this near to the robot: a share of its size, and [rad].
-constexpr double kLeash = 0.1, kTurnLeash = 0.15;
+/// Largest distance of the reference pose from the robot: a share of its size, and [rad].
+constexpr double kMostOff = 0.1, kMostTurnOff = 0.15;
 /// Largest commands: speed over sqrt(g height), and turn times sqrt(height / g); and the largest changes of both a
 /// second, over g, and times height / g.
 constexpr double kMostSpeed = 0.45, kMostTurn = 0.25, kMostPush = 0.15, kMostSpin = 0.2;
@@ -74,11 +74,11 @@ void CommandLead::lead(double start, const HorizonGrid& grid, const GroundPlane&
 }
 
 void CommandLead::stay_near(const VectorXd& q, double size) {
-  const double leash = kLeash * size;
+  const double most = kMostOff * size;
   const Eigen::Vector2d off = place_ - q.head<2>();
-  if (off.norm() > leash) place_ = q.head<2>() + off * (leash / off.norm());
+  if (off.norm() > most) place_ = q.head<2>() + off * (most / off.norm());
   const double turned = wrapped(heading_ - heading(q));
-  heading_ = heading(q) + std::clamp(turned, -kTurnLeash, kTurnLeash);
+  heading_ = heading(q) + std::clamp(turned, -kMostTurnOff, kMostTurnOff);
 }
 
 }  // namespace prowl

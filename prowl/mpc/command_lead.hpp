@@ -17,7 +17,7 @@ struct MpcCommand {
   bool operator==(const MpcCommand&) const = default;
 };
 
-/// Where commands lead: place and heading that a robot should have by now, and references of a horizon from there.
+/// Reference pose, integrated from the commands, and references of a horizon from there.
 class CommandLead {
  public:
   /// `standing` (nq): posture of all references, which must outlive this. At time t [s] the robot is at q, and stays.
@@ -29,11 +29,11 @@ class CommandLead {
   const MpcCommand& followed() const { return smooth_; }
   /// Place (x, y) [m] and heading [rad] to which the commands have led.
   Eigen::Vector3d pose() const { return {place_.x(), place_.y(), heading_}; }
-  /// Leads on to time `start` [s].
+  /// Integrates commands to time `start` [s].
   void advance(double start);
   /// The same, and sets the references of a horizon that begins then.
   void lead(double start, const HorizonGrid& grid, const GroundPlane& ground, HorizonProgram& program);
-  /// Stays near a robot that is elsewhere than led, `size` [m] large.
+  /// Keeps the reference pose near a robot at q, `size` [m] large.
   void stay_near(const Eigen::VectorXd& q, double size);
 
  private:

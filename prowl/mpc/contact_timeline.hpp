@@ -14,14 +14,14 @@ struct SteppingPattern {
   double swing() const { return (1.0 - duty_factor) * stride; }  ///< duration of a swing [s]
 };
 
-/// Swings of each foot in absolute time. A pattern fills it from its end: a change of pattern never alters what a
+/// Swings of each foot in absolute time. Patterns are appended at its end: a change of pattern never alters what a
 /// controller has planned already. Detected contacts move single landings. No allocation after construction but by
 /// follow().
 class ContactTimeline {
  public:
   struct Swing {
     double lift = 0.0, land = 0.0;  ///< [s]
-    double planned = 0.0;           ///< landing before any was felt to be early or late [s]
+    double planned = 0.0;           ///< landing before corrections by felt contacts [s]
     bool has_touched = false;       ///< its landing was felt
   };
 

@@ -13,8 +13,8 @@ class GroundPlane {
 
   /// A contact stands on the ground with its lowest point at `place`, world [m].
   void see(int contact, const Eigen::Vector3d& place);
-  /// Moves the plane by a share, 0 to 1, of the way to the one that fits what was seen. Slopes that contacts on a line
-  /// leave open are level.
+  /// Moves the plane by a share, 0 to 1, of the way to the one that fits what was seen. A slope that collinear contacts
+  /// leave undetermined is zero.
   void fit(double share);
 
   double height(const Eigen::Vector2d& place) const {  ///< world [m]

@@ -37,7 +37,7 @@ void HorizonBounds::set(const HorizonGrid& grid, const ContactTimeline& timeline
   for (int k = 0; k < program_.num_stages(); ++k) {
     BarrierRows& rows = solver.rows(k);
     const HorizonStep& step = program_.step(k);
-    const double price = options_.weights.breach * step.length;
+    const double price = options_.weights.penalty * step.length;
     const double friction_price = k < kSoftSteps ? price : kFrictionPrice * price;
     program_.get_state(k, q_, v_);
     const double turned = heading(q_), cos = std::cos(turned), sin = std::sin(turned);

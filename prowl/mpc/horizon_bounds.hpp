@@ -19,7 +19,7 @@ class HorizonBounds {
   /// A view of both arguments.
   HorizonBounds(const HorizonProgram& program, const MpcOptions& options);
 
-  /// The first steps, whose friction gives way as other limits do: what is measured need not keep it.
+  /// The first steps, whose friction is as soft as other limits: a measured state may violate it.
   static constexpr int kSoftSteps = 2;
 
   /// Sets the bounds of all steps, whose states and contacts the program has.

@@ -20,8 +20,8 @@ struct HorizonStep {
   Eigen::VectorXd q_ref, v_ref;  ///< nq, nv
 };
 
-/// The motion problem of a horizon as a chain of stages, one a step, with the rows and derivatives of the planner
-/// (NodeFunctions) in the middle of each step:
+/// The motion problem of a horizon as a chain of stages, one per step, with the functions and derivatives of the
+/// planner (NodeFunctions) in the middle of each step:
 ///
 ///   states   (q, v) at the start of the step
 ///   inputs   a, tau, forces of dependent contacts: constant over the step
@@ -33,7 +33,7 @@ struct HorizonStep {
 /// of feet that stand are held in velocity only: their anchors are where the feet are.
 ///
 /// Inequalities of a stage: friction pyramid of each contact of the robot | torque curves | height above the ground and
-/// velocity of each contact | joint positions | joint velocities | torques. Rows without meaning, as friction of a foot
+/// velocity of each contact | joint positions | joint velocities | torques. Unused rows, such as friction of a foot
 /// in the air, are constant. All stages have equal sizes, so that nothing is allocated after construction.
 ///
 /// Variables are dimensionless as those of StagewiseTranscription.
@@ -74,7 +74,7 @@ class HorizonProgram : public LinearisedChain {
   /// Sets state and inputs of a stage, and its chart to the rotation of q.
   void set_stage(int k, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                  const Eigen::VectorXd& tau);
-  /// State at the start of step k. After a step of the variables.
+  /// State at the start of step k, at the current variables.
   void get_state(int k, Eigen::VectorXd& q, Eigen::VectorXd& v) const;
   void get_inputs(int k, Eigen::VectorXd& a, Eigen::VectorXd& tau) const;
   /// (q, v) as the states of stage k, in its chart and units.
@@ -87,7 +87,7 @@ class HorizonProgram : public LinearisedChain {
   void linearise(int k);
   const Eigen::VectorXd& equalities(int k) const { return stages_[static_cast<std::size_t>(k)].equalities; }
   const Eigen::VectorXd& inequalities(int k) const { return stages_[static_cast<std::size_t>(k)].inequalities; }
-  /// Next state less the state of the next stage.
+  /// Continuity error: next state minus the next stage's state.
   const Eigen::VectorXd& link(int k) const { return stages_[static_cast<std::size_t>(k)].link; }
   const Eigen::VectorXd& cost_gradient(int k) const {
     return stages_[static_cast<std::size_t>(k)].slopes.cost_gradient;

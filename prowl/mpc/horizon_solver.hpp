@@ -11,14 +11,14 @@ namespace prowl {
 /// Steps of an interior-point method on a HorizonProgram, each in two parts: all that the measured state does not
 /// change, and the rest. A step solves the quadratic program of one linearisation, twice:
 ///
-///   prepare()  from the state that the variables predict. The first iteration begins with the active set of the
-///              last step; if these change, predictor-corrector iterations follow.
+///   prepare()  from the state that the variables predict. The first iteration begins with the previous active
+///              set; if it changes, predictor-corrector iterations follow.
 ///   step()     from the measured state, which is near. Its first iteration has the factors of prepare(); others follow
-///              only if active set of the steps that may act change. The next prepare() sees to the rest.
+///              only if the active set of steps that may act changes. The next prepare() sees to the rest.
 class HorizonSolver {
  public:
   /// A view of `program`, which must outlive it. `barrier`: mu of a step of mean length.
-  /// `iterations` >= 1: most of each part. It ends when the distances fit their rows within kTolerance.
+  /// `iterations` >= 1: maximum of each part, which ends when the distances fit their rows within kTolerance.
   HorizonSolver(HorizonProgram& program, double barrier, int iterations);
 
   /// Forgets distances and multipliers of all rows.
@@ -36,7 +36,7 @@ class HorizonSolver {
   void torque_gain(int k, Eigen::Ref<Eigen::MatrixXd> gain);
 
   double regularisation() const { return regularisation_; }  ///< of the latest factorisation
-  /// Of the latest prepare(): largest violation of dynamics and links, in units of the stages.
+  /// Of the latest prepare(): largest violation of dynamics and continuity, in units of the stages.
   double violation() const { return violation_; }
   double step_share() const { return share_; }         ///< of Newton's step that was taken
   int iterations() const { return done_; }             ///< of the latest part

@@ -6,13 +6,13 @@
 
 namespace prowl {
 
-/// Begins of plans are sums of times: they count as equal within this [s].
+/// Starts of plans are sums of times: they count as equal within this [s].
 inline constexpr double kTimeRounding = 1e-9;
 
 /// The latest plans of a controller: the newest that has begun acts. No function allocates but the constructor.
 class LatestPlans {
  public:
-  /// A plan may begin so many periods after the measurement that it starts from.
+  /// A plan begins at most this many periods after its measurement.
   static constexpr int kLongestDelay = 7;
 
   /// `first`: acts until another begins. The robot must outlive this.
@@ -23,7 +23,7 @@ class LatestPlans {
   MpcPlan& begin_next();
   /// Drops the latest plan, which came too late: those before go on.
   void drop_latest();
-  /// The latest plan was ready at time t [s] only: it acts from then on.
+  /// The latest plan becomes ready at time t [s]: it acts from then on.
   void act_from(double t) { kept_.front().ready = t; }
 
   /// Torques at time t [s] for the state (q, v) at that time, of the newest plan that has begun, with its gains, within

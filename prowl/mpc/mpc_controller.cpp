@@ -98,7 +98,7 @@ void MpcController::shift() {
     on.equalities = factor * old.equalities;
     on.inequalities = factor * old.inequalities;
     on.next = old_multipliers_[std::min(old_step(grid_.time(k + 1)), old_multipliers_.size() - 2)].next;
-    solver_.rows(k).take_over(old_rows_[from], factor);
+    solver_.rows(k).copy(old_rows_[from], factor);
     HorizonStep& step = program_.step(k);
     step.length = grid_.step(k);
     step.standing = timeline_.standing(grid_.middle(k));

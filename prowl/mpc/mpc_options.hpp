@@ -15,7 +15,7 @@ struct MpcOptions {
   /// From a measured state to the time at which its plan acts [s], at most LatestPlans::kLongestDelay updates later.
   double delay = 0.0;
   double barrier = 1e-5;  ///< mu, of a step of mean length [-]
-  int iterations = 10;    ///< most of the quadratic program of an update
+  int iterations = 10;    ///< maximum in each part of an update
   HessianKind hessian = HessianKind::gauss_newton_with_cones;
 };
 

@@ -11,8 +11,8 @@ namespace prowl {
 ///
 ///   tau = tau_k + K_k (x (-) x*(t)),  within the torque limits of the robot
 ///
-/// The second part is at most a share of the torque limit of each joint: gains are those of the active limits. Far from
-/// the plan, with other active limits, they may be ten times too large, and throw a robot over in 10 ms.
+/// The second term is limited to a share of each joint's torque limit: gains are valid for one active set. Far from the
+/// plan, with another active set, they may be ten times too large, and topple a robot in 10 ms.
 /// x (-) x* is (base displacement, world [m]; rotation vector from R* to R [rad]; joints; velocities, as RobotModel).
 /// No function allocates but the constructor.
 class MpcPlan {
@@ -22,7 +22,7 @@ class MpcPlan {
     unsigned standing = 0;             ///< bit f: foot f stands
     Eigen::VectorXd q, v;              ///< at the start
     Eigen::VectorXd a, tau;            ///< constant over the step
-    Eigen::VectorXd force;             ///< 3 per contact of the robot, world frame, as first guessed for this plan [N]
+    Eigen::VectorXd force;             ///< 3 per contact of the robot, world frame, at this plan's linearisation [N]
     Eigen::MatrixXd gain;              ///< K, nu x 2 nv
   };
 

@@ -20,8 +20,8 @@ struct MpcWeights {
   double torque = 0.05;
   double force = 0.15;
   double terminal = 1.0;  ///< factor on those of the state, as a cost of the end, times sqrt(l / g)
-  // Prices of limits that may give way, per unit: larger than any multiplier of a motion that keeps them.
-  double breach = 30.0;
+  // Exact penalty of soft limits, per unit: larger than any multiplier of a motion that keeps them.
+  double penalty = 30.0;
 };
 
 }  // namespace prowl

@@ -15,7 +15,7 @@ namespace prowl {
 struct MpcCounters {
   long updates = 0;
   long failed = 0;       ///< updates without a new plan: the last one went on
-  long bad_states = 0;   ///< of these: the measured state was none, or led to none
+  long bad_states = 0;   ///< of these: the measured or predicted state was invalid
   long regularised = 0;  ///< updates whose Hessian was not convex
   long restarted = 0;    ///< updates that forgot multipliers, as the one before had failed or was cut short
   long damped = 0;       ///< torques after the end of the last plan: joints are damped
@@ -37,7 +37,7 @@ class OnlineController {
   /// Command after smoothing, as the latest plan follows it.
   const MpcCommand& followed() const { return lead_.followed(); }
 
-  /// From the end of what is planned on. Throws InputError as ContactTimeline::follow().
+  /// Takes effect after the swings already scheduled. Throws InputError as ContactTimeline::follow().
   virtual void follow(const SteppingPattern& pattern) { timeline_.follow(pattern); }
   /// Returns the command that is followed: within the speeds that the legs allow.
   MpcCommand command(const MpcCommand& command) { return lead_.command(command); }
@@ -55,7 +55,7 @@ class OnlineController {
   virtual double computing_time(double on_thread) const { return on_thread; }
   /// Drops the latest plan, which came too late: the one before goes on.
   void drop_latest() { plans_.drop_latest(); }
-  /// The latest plan was ready at time t [s] only.
+  /// The latest plan becomes ready at time t [s].
   void act_from(double t) { plans_.act_from(t); }
 
   /// Torques at time t for the state (q, v) at that time: those of the newest plan that has begun, with its gains,

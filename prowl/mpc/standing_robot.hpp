@@ -17,7 +17,7 @@ std::vector<int> standing_contacts(const std::vector<std::vector<int>>& feet, un
 /// The nominal posture with all contacts on the ground z = 0 (nq). Throws InputError if they do not reach it.
 Eigen::VectorXd standing_on_ground(const RobotModel& robot);
 
-/// A step of a plan that stands still at q, at no time yet, without gains.
+/// A step of a plan that stands still at q, without times or gains.
 MpcPlan::Step standing_step(const RobotModel& robot, const std::vector<std::vector<int>>& feet,
                             const Eigen::VectorXd& q);
 

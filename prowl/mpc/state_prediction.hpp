@@ -10,7 +10,7 @@
 
 namespace prowl {
 
-/// Where a robot will be when a plan acts that is made now: its rigid-body dynamics under the torques of the plans so
+/// Where a robot will be when a plan made now acts: its rigid-body dynamics under the torques of the plans so
 /// far. No function allocates but the constructor.
 class StatePrediction {
  public:

@@ -90,7 +90,7 @@ std::vector<BenchmarkRow> benchmark_rows(const RobotModel& robot, const OnlineOp
   const BodyTree tree = body_tree(robot);
   loaded.options.simulation.physics.body_scales.assign(tree.bodies.size(), 1.0);
   loaded.options.simulation.physics.body_scales.front() += kPayload * robot.mass() / tree.bodies.front().mass;
-  rows.add("friction", "friction 0.4 where plans count on 0.6", kShort, kFewSeeds, Events::commands)
+  rows.add("friction", "friction 0.4 where plans assume 0.6", kShort, kFewSeeds, Events::commands)
       .options.simulation.physics.friction = kSlippery;
   rows.add("slope", "ground that rises by 10 degrees, unknown", kShort, kFewSeeds, Events::commands)
       .options.simulation.ground.tilt.y() = -kSlope * std::numbers::pi / 180.0;

@@ -19,7 +19,7 @@ struct OnlineSample {
 };
 
 /// Plans whose forces leave their friction cones by more than 1 % of the robot's weight: in the middle of the part that
-/// is executed, on level ground with the friction that the controller counts on.
+/// is executed, on level ground with the friction that the controller assumes.
 struct ForceCount {
   long plans = 0, outside = 0;
   double share() const { return plans > 0 ? static_cast<double>(outside) / static_cast<double>(plans) : 0.0; }

@@ -28,7 +28,7 @@ using Planner = std::function<std::optional<double>(const MotionRequest& request
 /// prediction of the state and choice of plan. Its feedback is limited by the torque limits alone.
 class OutsideController final : public OnlineController {
  public:
-  /// The robot stands still at (q, v) and time t [s]. `delay`: from a measured state to the start of its plan [s].
+  /// The robot stands still at q and time t [s]. `delay`: from a measured state to the start of its plan [s].
   OutsideController(const RobotModel& robot, Planner planner, double delay, const Eigen::VectorXd& q, double t);
 
   double computing_time(double) const override { return computing_time_; }

@@ -15,7 +15,7 @@ void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options);
 void add_one_kick(const RobotModel& robot, double speed, OnlineOptions& options);
 
 /// Adds a random command every 1 to 4 s from 1 s on, until 3 s before the end: velocities within `most` [m/s], turn
-/// rates within `most` [rad/s], evenly.
+/// rates within `most` [rad/s], uniformly.
 void add_random_commands(double most, OnlineOptions& options);
 
 }  // namespace prowl

@@ -41,7 +41,7 @@ class _Channels:
 
 
 class Foxglove:
-    """For run_online(watch=Foxglove(robot)): runs at the pace of the clock and serves the robot to Foxglove at `url`
+    """For run_online(watch=Foxglove(robot)): runs in real time and serves the robot to Foxglove at `url`
     until the end of a `with` statement.
 
     Topics as those of an MCAP file (docs/exports.md), without efforts. Messages geometry_msgs/Twist of clients, such
