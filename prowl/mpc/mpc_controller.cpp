@@ -33,7 +33,8 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
   q_ = q_next_ = q;
   v_ = v_next_ = VectorXd::Zero(robot.nv());
   a_ = v_;
-  tau_ = still.tau;
+  tau_ = still_torques_ = still.tau;
+  lost_at_ = q;
   grid_.lay(t, timeline_);
   MpcPlan& plan = plans_.begin_next();
   for (int k = 0; k < options.steps; ++k) {
@@ -64,6 +65,7 @@ bool MpcController::prepare_from(double start) {
   timeline_.extend(start, start + grid_.length() + 0.1);
   grid_.lay(start, timeline_);
   shift();
+  if (is_lost_) begin_anew();
   lead_.lead(start, grid_, ground_, program_);
   bounds_.set(grid_, timeline_, ground_, solver_);
   is_settled_ = solver_.prepare();
@@ -112,13 +114,23 @@ void MpcController::shift() {
 bool MpcController::plan_from(const VectorXd& q, const VectorXd& v, double) {
   if (!solver_.step(q, v)) {
     // What the rows know by now helps the next quadratic program, unless it leads nowhere.
-    is_settled_ = ++failed_in_a_row_ % kMostFailures != 0;
+    is_lost_ = ++failed_in_a_row_ % kMostFailures == 0;
+    is_settled_ = !is_lost_;
+    lost_at_ = q;
     return false;
   }
   failed_in_a_row_ = 0;
+  is_lost_ = false;
   is_settled_ = solver_.step_share() > kSettledShare;
   read_plan();
   return true;
+}
+
+/// From where the robot is, as if it stood still there: the last plan may be far from it.
+void MpcController::begin_anew() {
+  v_.setZero();
+  a_.setZero();
+  for (int k = 0; k < options_.steps; ++k) program_.set_stage(k, lost_at_, v_, a_, still_torques_);
 }
 
 /// What a failed update knows of the limits may be far off.

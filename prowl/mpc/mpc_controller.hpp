@@ -29,6 +29,7 @@ class MpcController final : public OnlineController {
  private:
   void shift();
   void restart();
+  void begin_anew();
   void read_plan();
   bool prepare_from(double start) override;
   void look(const Eigen::VectorXd& q, double t) override;  ///< at the ground
@@ -39,7 +40,10 @@ class MpcController final : public OnlineController {
   HorizonSolver solver_;
   HorizonGrid grid_;
   int failed_in_a_row_ = 0;
-  bool is_settled_ = true;  ///< the latest update took its whole step
+  bool is_lost_ = false;           ///< the last plan is no good guess any more
+  Eigen::VectorXd lost_at_;        ///< configuration of the robot then
+  Eigen::VectorXd still_torques_;  ///< of the standing posture
+  bool is_settled_ = true;         ///< if not, the next update starts anew
   RigidBodyTerms terms_;
   GroundPlane ground_;
   HorizonBounds bounds_;
