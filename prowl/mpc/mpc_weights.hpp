@@ -12,7 +12,7 @@ struct MpcWeights {
   double heading = 10.0;          ///< yaw
   double posture = 0.5;           ///< joints from the standing posture
   double posture_of_biped = 5.0;  ///< the same for a robot on two feet, whose legs would cross
-  double velocity = 15.0;         ///< base, from the command
+  double velocity = 25.0;         ///< base, from the command
   double climb = 15.0;            ///< base, vertical velocity
   double turning = 3.0;           ///< base, angular velocity from the command
   double joint_rate = 0.01;
