@@ -41,24 +41,9 @@ HorizonGrid::HorizonGrid(int steps, double first, double length) {
 }
 
 void HorizonGrid::lay(double start, const ContactTimeline& timeline) {
-  const int steps = num_steps();
-  // A switch just before the end counts once it leaves room for half of the last step.
-  const double last_step = nominal_[static_cast<std::size_t>(steps)] - nominal_[static_cast<std::size_t>(steps) - 1];
-  switches_.clear();
-  timeline.add_switches(start + kShortestStep, start + length() - 0.5 * last_step, switches_);
-  std::sort(switches_.begin(), switches_.end());
-  // Each alone, and no more than there are nodes inside.
-  std::size_t count = 0;
-  double last = start;
-  for (const double t : switches_) {
-    const auto k = static_cast<std::size_t>(index_at(t - start));
-    const double shortest = std::max(kShortestStep, kShortestShare * (nominal_[k + 1] - nominal_[k]));
-    if (t < last + (count == 0 ? kShortestStep : shortest) || static_cast<int>(count) + 1 >= steps) continue;
-    switches_[count++] = last = t;
-  }
-  // Between two switches as many steps as the growing ones have there, but at least one.
-  switches_.resize(count);
+  choose_switches(start, timeline);
   switches_.push_back(start + length());
+  // Between two switches as many steps as the growing ones have there, but at least one.
   spans_.clear();
   double begin = 0.0;
   for (const double t : switches_) {
@@ -66,10 +51,9 @@ void HorizonGrid::lay(double start, const ContactTimeline& timeline) {
     spans_.push_back({begin, end, 1});
     begin = end;
   }
-  for (int left = steps - static_cast<int>(spans_.size()); left > 0; --left)
-    ++std::ranges::max_element(spans_, {}, [](const Span& span) {
-        return (span.end - span.begin) / span.steps;
-      })->steps;
+  const auto share = [](const Span& span) { return (span.end - span.begin) / span.steps; };
+  for (int left = num_steps() - static_cast<int>(spans_.size()); left > 0; --left)
+    ++std::ranges::max_element(spans_, {}, share)->steps;
   auto time = times_.begin();
   *time = start;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
@@ -78,6 +62,24 @@ void HorizonGrid::lay(double start, const ContactTimeline& timeline) {
       *++time = start + time_at(span.begin + (span.end - span.begin) * k / span.steps);
     *++time = switches_[i];
   }
+}
+
+/// Each alone, and no more than there are nodes inside.
+void HorizonGrid::choose_switches(double start, const ContactTimeline& timeline) {
+  const auto steps = nominal_.size() - 1;
+  // A switch just before the end counts once it leaves room for half of the last step.
+  const double last_step = nominal_[steps] - nominal_[steps - 1];
+  switches_.clear();
+  timeline.add_switches(start + kShortestStep, start + length() - 0.5 * last_step, switches_);
+  std::sort(switches_.begin(), switches_.end());
+  std::size_t count = 0;
+  for (const double t : switches_) {
+    const auto k = static_cast<std::size_t>(index_at(t - start));
+    const double shortest = std::max(kShortestStep, kShortestShare * (nominal_[k + 1] - nominal_[k]));
+    const bool is_alone = count == 0 || t >= switches_[count - 1] + shortest;
+    if (is_alone && count + 1 < steps) switches_[count++] = t;
+  }
+  switches_.resize(count);
 }
 
 double HorizonGrid::index_at(double t) const {

@@ -30,6 +30,7 @@ class HorizonGrid {
     double begin, end;
     int steps;
   };
+  void choose_switches(double start, const ContactTimeline& timeline);
   double index_at(double t) const;
   double time_at(double index) const;
 
