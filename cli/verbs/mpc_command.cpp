@@ -36,7 +36,6 @@ namespace {
 constexpr const char* kWorld = "World";  ///< group of --help
 constexpr const char *kPages = "Pages", *kBenchmark = "Benchmark";
 constexpr double kPageRate = 30.0;  ///< of the moments that a page shows [Hz]
-constexpr double kFastest = 100.0;  ///< of a command [m/s, rad/s]: beyond it the number is a mistake
 constexpr double kViewed = 600.0;   ///< duration of --view without --duration [s]
 
 struct MpcArguments {
@@ -183,9 +182,8 @@ void add_world_options(CLI::App& verb, MpcArguments& arguments) {
 }
 
 void add_page_options(CLI::App& verb, MpcArguments& arguments) {
-  CLI::Option* const view = verb.add_flag("--view", arguments.view,
-                                          "Run in real time; a page in the browser takes commands and "
-                                          "kicks");
+  CLI::Option* const view =
+      verb.add_flag("--view", arguments.view, "Run in real time; a page in the browser takes commands and kicks");
   view->group(kPages);
   CLI::Option* const foxglove = verb.add_flag(
       "--foxglove", arguments.foxglove, "Run in real time; Foxglove shows the robot, and its Teleop panel commands it");
@@ -245,7 +243,7 @@ void add_mpc_command(CLI::App& app, int& status) {
   verb->add_option("--command", arguments->command,
                    "Velocity ahead and to the left [m/s], and turn rate [rad/s], from 1 s on; default 0 0 0")
       ->expected(3)
-      ->check(number_in({.lower = -kFastest, .upper = kFastest}))
+      ->check(number_in({.lower = -kFastestCommand, .upper = kFastestCommand}))
       ->type_name("VX VY YAW");
   verb->add_option("--duration", arguments->options.duration,
                    fmt::format("Simulated time; default {:g}", arguments->options.duration))

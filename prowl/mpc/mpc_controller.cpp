@@ -34,7 +34,7 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
   v_ = v_next_ = VectorXd::Zero(robot.nv());
   a_ = v_;
   tau_ = still_torques_ = still.tau;
-  lost_at_ = q;
+  failed_at_ = q;
   grid_.lay(t, timeline_);
   MpcPlan& plan = plans_.begin_next();
   for (int k = 0; k < options.steps; ++k) {
@@ -65,7 +65,7 @@ bool MpcController::prepare_from(double start) {
   timeline_.extend(start, start + grid_.length() + 0.1);
   grid_.lay(start, timeline_);
   shift();
-  if (is_lost_) begin_anew();
+  if (is_lost()) begin_anew();
   lead_.lead(start, grid_, ground_, program_);
   bounds_.set(grid_, timeline_, ground_, solver_);
   is_settled_ = solver_.prepare();
@@ -114,23 +114,25 @@ void MpcController::shift() {
 bool MpcController::plan_from(const VectorXd& q, const VectorXd& v, double) {
   if (!solver_.step(q, v)) {
     // What the rows know by now helps the next quadratic program, unless it leads nowhere.
-    is_lost_ = ++failed_in_a_row_ % kMostFailures == 0;
-    is_settled_ = !is_lost_;
-    lost_at_ = q;
+    ++failed_in_a_row_;
+    failed_at_ = q;
+    is_settled_ = !is_lost();
     return false;
   }
   failed_in_a_row_ = 0;
-  is_lost_ = false;
   is_settled_ = solver_.step_share() > kSettledShare;
   read_plan();
   return true;
 }
 
-/// From where the robot is, as if it stood still there: the last plan may be far from it.
+/// The last plan is no good guess any more.
+bool MpcController::is_lost() const { return failed_in_a_row_ > 0 && failed_in_a_row_ % kMostFailures == 0; }
+
+/// From where the robot is, as if it stood still there.
 void MpcController::begin_anew() {
   v_.setZero();
   a_.setZero();
-  for (int k = 0; k < options_.steps; ++k) program_.set_stage(k, lost_at_, v_, a_, still_torques_);
+  for (int k = 0; k < options_.steps; ++k) program_.set_stage(k, failed_at_, v_, a_, still_torques_);
 }
 
 /// What a failed update knows of the limits may be far off.

@@ -29,6 +29,7 @@ class MpcController final : public OnlineController {
  private:
   void shift();
   void restart();
+  bool is_lost() const;
   void begin_anew();
   void read_plan();
   bool prepare_from(double start) override;
@@ -40,8 +41,7 @@ class MpcController final : public OnlineController {
   HorizonSolver solver_;
   HorizonGrid grid_;
   int failed_in_a_row_ = 0;
-  bool is_lost_ = false;           ///< the last plan is no good guess any more
-  Eigen::VectorXd lost_at_;        ///< configuration of the robot then
+  Eigen::VectorXd failed_at_;      ///< configuration of the robot at the latest failure
   Eigen::VectorXd still_torques_;  ///< of the standing posture
   bool is_settled_ = true;         ///< if not, the next update starts anew
   RigidBodyTerms terms_;

@@ -14,7 +14,7 @@ constexpr double kMostDelay = 0.5;  ///< [s]
 
 }  // namespace
 
-void check_option(bool is_allowed, const char* name, double value, const char* needed) {
+void check_option(bool is_allowed, const char* name, double value, const std::string& needed) {
   if (!is_allowed) throw InputError(fmt::format("{}: {:g} is not allowed; need {}", name, value, needed));
 }
 

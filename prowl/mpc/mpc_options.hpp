@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "prowl/mpc/mpc_weights.hpp"
 #include "prowl/transcription/node/node_functions.hpp"
 
@@ -20,7 +22,7 @@ struct MpcOptions {
 };
 
 /// Throws InputError "name: value is not allowed; need ..." unless the value is allowed.
-void check_option(bool is_allowed, const char* name, double value, const char* needed);
+void check_option(bool is_allowed, const char* name, double value, const std::string& needed);
 
 /// The same options; throws InputError for one out of range.
 const MpcOptions& checked(const MpcOptions& options);

@@ -10,7 +10,7 @@ namespace {
 /// Beyond these a measured state is an error. Velocities: of the base over sqrt(g size), all others times
 /// sqrt(size / g). Motors are slower by a factor of ten; at much larger ones a prediction is not finite.
 constexpr double kFastest = 100.0;
-constexpr double kFarthest = 1e6;      ///< [m]: doubles tell micrometres there, and are more than accurate enough
+constexpr double kFarthest = 1e6;      ///< [m]: doubles still tell nanometres there
 constexpr double kMostTurned = 1e3;    ///< joints [rad]
 constexpr double kUnitRounding = 0.1;  ///< of the norm of a quaternion [-]
 
@@ -34,11 +34,7 @@ OnlineController::OnlineController(const RobotModel& robot, double delay, const 
 
 bool OnlineController::prepare(double t) {
   ++counters_.updates;
-  if (!std::isfinite(t)) {
-    ++counters_.failed;
-    ++counters_.bad_states;
-    return false;
-  }
+  if (!std::isfinite(t)) return refuse();
   start_ = t + delay_;
   const bool is_ready = prepare_from(start_);
   if (!is_ready) ++counters_.failed;
@@ -46,21 +42,23 @@ bool OnlineController::prepare(double t) {
 }
 
 bool OnlineController::plan(const VectorXd& q, const VectorXd& v, double t) {
-  const auto fail = [this] {
-    ++counters_.failed;
-    ++counters_.bad_states;
-    return false;
-  };
-  if (!std::isfinite(t) || !is_state(q, v)) return fail();
+  if (!std::isfinite(t) || !is_state(q, v)) return refuse();
   q_ = q;
   v_ = v;
   prediction_.predict(plans_, timeline_, t, start_, q_, v_);
-  if (!is_state(q_, v_)) return fail();
+  if (!is_state(q_, v_)) return refuse();
   look(q, t);
   lead_.stay_near(q_, robot_.size());
   const bool has_plan = plan_from(q_, v_, t);
   if (!has_plan) ++counters_.failed;
   return has_plan;
+}
+
+/// An update without a new plan, as its measured state or time is none.
+bool OnlineController::refuse() {
+  ++counters_.failed;
+  ++counters_.bad_states;
+  return false;
 }
 
 bool OnlineController::is_state(const VectorXd& q, const VectorXd& v) const {

@@ -86,6 +86,7 @@ class OnlineController {
   MpcCounters counters_;
 
  private:
+  bool refuse();
   bool is_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const;
 
   double delay_, start_;

@@ -26,7 +26,7 @@ StatePrediction::StatePrediction(const RobotModel& robot, const std::vector<std:
 
 void StatePrediction::predict(const LatestPlans& plans, const ContactTimeline& timeline, double from, double to,
                               VectorXd& q, VectorXd& v) {
-  while (to - from > 1e-9) {
+  while (to - from > kTimeRounding) {
     const double dt = std::min(kPredictionStep, to - from);
     plans.torque(from, q, v, tau_);
     ForwardDynamics& dynamics = *dynamics_[timeline.standing(from + 0.5 * dt)];

@@ -183,7 +183,7 @@ class Run {
   }
 
   void obey(double t) {
-    while (next_command_ < options_.commands.size() && options_.commands[next_command_].time <= t + 1e-9)
+    while (next_command_ < options_.commands.size() && options_.commands[next_command_].time <= t + kTimeRounding)
       obey(t, options_.commands[next_command_++]);
   }
   void obey(double t, const TimedCommand& timed) {

@@ -1,5 +1,7 @@
 #include "prowl/online/random_events.hpp"
 
+#include <fmt/format.h>
+
 #include "prowl/simulation/perturbations.hpp"
 
 namespace prowl {
@@ -18,7 +20,8 @@ std::mt19937_64 stream_of(const OnlineOptions& options, std::uint64_t stream) {
 
 void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options) {
   check_option(options.duration > kKickEvery + kAfterKick, "duration", options.duration,
-               "more than 3.9 s: the first kick comes after 2 s, and none in the last 1.9 s");
+               fmt::format("more than {:g} s: the first kick comes after {:g} s, and none in the last {:g} s",
+                           kKickEvery + kAfterKick, kKickEvery, kAfterKick));
   std::mt19937_64 random = stream_of(options, kKickStream);
   for (double t = kKickEvery; t < options.duration - kAfterKick; t += kKickEvery) {
     options.simulation.pushes.push_back({speed * robot.mass() * draw_direction(random), t});

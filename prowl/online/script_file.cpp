@@ -10,10 +10,8 @@
 namespace prowl {
 namespace {
 
-constexpr double kFastest = 100.0;  ///< of a command [m/s, rad/s]: beyond it the number is a mistake
-
 FileKeys make_script_file_keys() {
-  const NumberRange speed{.lower = -kFastest, .upper = kFastest}, time = NumberRange::nonnegative();
+  const NumberRange speed{.lower = -kFastestCommand, .upper = kFastestCommand}, time = NumberRange::nonnegative();
   const char* const kMoment = "time from the start of the run";
   return {
       {.name = "command", .form = "[[command]]", .meaning = "what the robot is told from a time on"},

@@ -6,6 +6,9 @@
 
 namespace prowl {
 
+/// Of a command [m/s, rad/s]: beyond it the number is a mistake.
+inline constexpr double kFastestCommand = 100.0;
+
 /// Keys of a script, declared as those of tasks and robots.
 const FileKeys& script_file_keys();
 
