@@ -54,7 +54,7 @@ void ContactTimeline::extend(double now, double until) {
     for (const int foot : pattern_.groups[next_group_]) {
       std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];
       const double lift = swings.empty() ? next_lift_ : std::max(next_lift_, swings.back().land + kShortestStance);
-      if (swings.size() < kMostSwings) swings.push_back({lift, lift + pattern_.swing(), lift + pattern_.swing()});
+      if (swings.size() < kMostSwings) swings.push_back({lift, lift + pattern_.swing(), lift + pattern_.swing(), lift});
     }
     next_lift_ += pattern_.stride / static_cast<double>(pattern_.groups.size());
     next_group_ = (next_group_ + 1) % pattern_.groups.size();
@@ -110,6 +110,34 @@ void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
 
 void ContactTimeline::feel(const std::vector<bool>& touches, double t, double delay) {
   for (int f = 0; f < num_feet(); ++f) feel(f, touches[static_cast<std::size_t>(f)], t, delay + kSoon);
+  if (keeps_three_feet()) await_landings(t, delay + kSoon);
+}
+
+/// If its groups swing one after the other.
+bool ContactTimeline::keeps_three_feet() const {
+  constexpr std::size_t kSupport = 3;
+  const auto stands = [this](const std::vector<int>& group) { return swings_.size() >= group.size() + kSupport; };
+  return std::ranges::all_of(pattern_.groups, stands);
+}
+
+/// A robot on two feet of a walk tips over. A foot that has waited lifts off `soon` [s] after t at the earliest, as
+/// the plan that acts until then has it on the ground.
+void ContactTimeline::await_landings(double t, double soon) {
+  for (std::vector<Swing>& swings : swings_) {
+    for (Swing& swing : swings) {
+      if (swing.lift <= t) continue;
+      double lift = std::max(swing.first_lift, std::min(swing.lift, t + soon));
+      for (const std::vector<Swing>& of_foot : swings_) {
+        for (const Swing& other : of_foot) {
+          const double first_landing = other.first_lift + (other.planned - other.lift);
+          if (first_landing < swing.first_lift + kSameTime) lift = std::max(lift, other.land);
+        }
+      }
+      const double duration = swing.planned - swing.lift;
+      swing.lift = lift;
+      swing.land = swing.planned = lift + duration;
+    }
+  }
 }
 
 double ContactTimeline::lateness(int foot, double landing, double t) const {

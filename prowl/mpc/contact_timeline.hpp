@@ -22,6 +22,7 @@ class ContactTimeline {
   struct Swing {
     double lift = 0.0, land = 0.0;  ///< [s]
     double planned = 0.0;           ///< landing before corrections by felt contacts [s]
+    double first_lift = 0.0;        ///< lift-off if no other foot is late [s]
     bool has_touched = false;       ///< its landing was felt
   };
 
@@ -45,7 +46,8 @@ class ContactTimeline {
   /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has
   /// landed. One that does not touch lands at t + `soon` [s] at the earliest, but at most kMostLate later than planned.
   void feel(int foot, bool touches, double t, double soon);
-  /// The same for all feet. What is planned at t acts `delay` [s] later.
+  /// The same for all feet. What is planned at t acts `delay` [s] later. If the pattern keeps three feet on the ground,
+  /// as a walk does, feet wait for late landings before they lift off.
   void feel(const std::vector<bool>& touches, double t, double delay);
   /// Time by which a landing that is scheduled for `landing` is late at time t [s]; 0 if it is not.
   double lateness(int foot, double landing, double t) const;
@@ -53,6 +55,9 @@ class ContactTimeline {
   static constexpr double kMostLate = 0.15, kLandingTime = 0.05;  ///< [s]
 
  private:
+  bool keeps_three_feet() const;
+  void await_landings(double t, double soon);
+
   SteppingPattern pattern_;
   std::size_t next_group_ = 0;
   double next_lift_;

@@ -70,6 +70,43 @@ TEST(ContactTimeline, ALateFootIsAwaited) {
   EXPECT_EQ(lost.swing(0, 0.2 + ContactTimeline::kMostLate + 0.011), nullptr);
 }
 
+/// With two feet in the air, a robot that walks tips over.
+TEST(ContactTimeline, AFootOfAWalkWaitsUntilTheOneBeforeHasLanded) {
+  constexpr double kDelay = 0.01, kTick = 0.01;
+  ContactTimeline walk(4, 0.0), trot(4, 0.0);
+  const SteppingPattern pattern{{{0}, {1}, {2}, {3}}, 0.8, 0.77};  // a swing of 0.184 s every 0.2 s
+  walk.follow(pattern);
+  trot.follow(kTrot);
+  for (ContactTimeline* timeline : {&walk, &trot}) timeline->extend(0.0, 2.0);
+  const double lift = pattern.stride / 4, landing = pattern.swing();
+  for (double t = 0.0; t < landing + 0.05; t += kTick) {
+    const std::vector<bool> none_but_late = {false, true, true, true};
+    walk.feel(none_but_late, t, kDelay);
+    trot.feel(none_but_late, t, kDelay);
+  }
+  const ContactTimeline::Swing* const late = walk.swing(0, landing + 0.05);
+  ASSERT_NE(late, nullptr);
+  EXPECT_EQ(walk.swing(1, lift + 0.01), nullptr) << "waits";
+  const ContactTimeline::Swing* const waiting = walk.swing(1, late->land);
+  ASSERT_NE(waiting, nullptr);
+  EXPECT_NEAR(waiting->land - waiting->lift, pattern.swing(), 1e-9);
+  EXPECT_NEAR(waiting->planned, waiting->land, 1e-9) << "is not late itself";
+  for (double t = 0.0; t < 2.0; t += 0.001) {
+    int swinging = 0;
+    for (int f = 0; f < 4; ++f) swinging += walk.swing(f, t) ? 1 : 0;
+    EXPECT_LE(swinging, 1) << t;
+  }
+  // The foot has landed: the other lifts off soon, and the rest of the schedule is as it was.
+  const double now = landing + 0.05;
+  walk.feel({true, true, true, true}, now, kDelay);
+  const ContactTimeline::Swing* const next = walk.swing(1, now + 0.03);
+  ASSERT_NE(next, nullptr);
+  EXPECT_GE(next->lift, now + kDelay) << "the plan that acts by then has it on the ground";
+  for (const double after : {0.0, 0.8}) EXPECT_NE(walk.swing(0, pattern.stride + after + 0.01), nullptr);
+  // A trot falls from one pair of feet to the other: it does not wait.
+  EXPECT_NE(trot.swing(1, kTrot.stride / 2 + 0.001), nullptr);
+}
+
 TEST(ContactTimeline, GoesOnAfterALongPause) {
   ContactTimeline timeline(4, 0.0), steady(4, 0.0);
   timeline.follow(kTrot);
