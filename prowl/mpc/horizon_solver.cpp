@@ -24,11 +24,12 @@ constexpr double kMostProducts = 30.0;
 
 }  // namespace
 
-HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterations)
+HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterations, int feedback_iterations)
     : program_(program),
       kkt_(program, StageKkt::Start::given),
       barrier_(barrier),
       iterations_(iterations),
+      feedback_iterations_(feedback_iterations),
       near_(std::min(kNearSteps, program.num_stages())) {
   const StageSize& size = program.size(0);
   for (int k = 0; k < program.num_stages(); ++k) {
@@ -78,7 +79,7 @@ bool HorizonSolver::prepare() {
   set_weights();
   aim(barrier_);
   states_.setZero();
-  if (!factorise() || !solve(stages)) return false;
+  if (!factorise() || !solve(stages, iterations_)) return false;
   set_weights();
   aim(barrier_);
   return factorise();
@@ -164,22 +165,22 @@ double HorizonSolver::products(double share) const {
 
 /// Until the rows of the first `judged` steps fit. The first step is taken as a whole, as it removes the violations of
 /// dynamics and start.
-bool HorizonSolver::solve(int judged) {
+bool HorizonSolver::solve(int judged, int most_iterations) {
   if (!find_direction()) return false;
   take(1.0);
   done_ = 1;
-  return residual(judged) <= kTolerance || solve_anew(judged);
+  return residual(judged) <= kTolerance || solve_anew(judged, most_iterations);
 }
 
 /// By Mehrotra's predictor and corrector, from distances that leave room.
-bool HorizonSolver::solve_anew(int judged) {
+bool HorizonSolver::solve_anew(int judged, int most_iterations) {
   int count = 0;
   for (int k = 0; k < program_.num_stages(); ++k) {
     rows_[k].open(inequalities_[k], scaled(kOpenBarrier, k), kOpenDistance);
     count += rows_[k].num_products();
   }
   const auto mean_product = [&](double share) { return products(share) / std::max(count, 1); };
-  for (bool is_solved = false; !is_solved && done_ < iterations_; ++done_) {
+  for (bool is_solved = false; !is_solved && done_ < most_iterations; ++done_) {
     set_weights();
     aim(0.0);
     if (!factorise() || !find_direction()) return false;
@@ -197,7 +198,7 @@ bool HorizonSolver::step(const VectorXd& q, const VectorXd& v) {
   program_.to_states(0, q, v, states_);
   states_ -= program_.variables(0).tail(states_.size());
   start_ = states_;
-  if (!solve(near_) || residual() > kUnsolved) return false;
+  if (!solve(near_, feedback_iterations_) || residual() > kUnsolved) return false;
   double largest = 0.0;
   for (int k = 0; k < stages; ++k)
     largest = std::max(largest, step_[k].tail(program_.size(k).states).lpNorm<Eigen::Infinity>());

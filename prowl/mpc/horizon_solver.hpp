@@ -18,8 +18,9 @@ namespace prowl {
 class HorizonSolver {
  public:
   /// A view of `program`, which must outlive it. `barrier`: mu of a step of mean length.
-  /// `iterations` >= 1: maximum of each part, which ends when the distances fit their rows within kTolerance.
-  HorizonSolver(HorizonProgram& program, double barrier, int iterations);
+  /// `iterations`, `feedback_iterations` >= 1: maximum of prepare() and step(), which end when the distances fit their
+  /// rows within kTolerance.
+  HorizonSolver(HorizonProgram& program, double barrier, int iterations, int feedback_iterations);
 
   /// Forgets distances and multipliers of all rows.
   void restart();
@@ -56,14 +57,14 @@ class HorizonSolver {
   double longest() const;
   void take(double share);
   double products(double share) const;
-  bool solve(int judged);
-  bool solve_anew(int judged);
+  bool solve(int judged, int most_iterations);
+  bool solve_anew(int judged, int most_iterations);
 
   HorizonProgram& program_;
   StageKkt kkt_;
   double barrier_;
   std::vector<BarrierRows> rows_;
-  int iterations_, near_;  ///< near_: steps that may act before the next plans replace them
+  int iterations_, feedback_iterations_, near_;  ///< near_: steps that may act before the next plans replace them
   double mean_length_ = 0.0;
   StageVectors weights_, pull_, gradient_, equalities_, links_;
   StageVectors step_, inequalities_;  ///< so far in the quadratic program, and its rows there

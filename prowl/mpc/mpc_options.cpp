@@ -26,6 +26,7 @@ const MpcOptions& checked(const MpcOptions& options) {
                "more than 0, at most 10 s");
   check_option(options.delay >= 0.0 && options.delay <= kMostDelay, "delay", options.delay, "0 to 0.5 s");
   check_option(options.iterations >= 1, "iterations", options.iterations, "1 or more");
+  check_option(options.feedback_iterations >= 1, "feedback_iterations", options.feedback_iterations, "1 or more");
   check_option(options.barrier > 0.0 && std::isfinite(options.barrier), "barrier", options.barrier, "> 0");
   check_option(options.friction > 0.0 && std::isfinite(options.friction), "friction", options.friction, "> 0");
   return options;

@@ -16,8 +16,9 @@ struct MpcOptions {
   double clearance = 0.12;     ///< height of a swing, as a share of the robot's standing height [-]
   /// From a measured state to the time at which its plan acts [s], at most LatestPlans::kLongestDelay updates later.
   double delay = 0.0;
-  double barrier = 1e-5;  ///< mu, of a step of mean length [-]
-  int iterations = 10;    ///< maximum in each part of an update
+  double barrier = 1e-5;        ///< mu, of a step of mean length [-]
+  int iterations = 10;          ///< maximum of an update before the state is measured
+  int feedback_iterations = 6;  ///< and after
   HessianKind hessian = HessianKind::gauss_newton_with_cones;
 };
 

@@ -19,7 +19,7 @@ struct Trot {
   MpcOptions options;
   RobotModel robot{test::hyq_description()};
   HorizonProgram program{robot, options.weights, options.friction, options.steps};
-  HorizonSolver solver{program, options.barrier, options.iterations};
+  HorizonSolver solver{program, options.barrier, options.iterations, options.feedback_iterations};
   HorizonGrid grid{options.steps, options.first_step, options.least_horizon};
   ContactTimeline timeline{4, 0.0};
   GroundPlane ground{4, robot.size()};

@@ -93,7 +93,7 @@ TEST(MpcController, GainsAreTheDerivativeOfThePlannedTorque) {
   Standing standing;
   // With one iteration the quadratic program is Newton's step, linear in the measured state.
   MpcOptions options;
-  options.iterations = 1;
+  options.iterations = options.feedback_iterations = 1;
   MpcController once(standing.robot, options, standing.q, standing.v, 0.0);
   const int nv = standing.robot.nv();
   constexpr double kMoved = 1e-4;
@@ -119,6 +119,7 @@ TEST(MpcController, RefusesOptionsOutOfRange) {
   refuses({.delay = 1e6});
   refuses({.delay = std::numeric_limits<double>::quiet_NaN()});
   refuses({.iterations = 0});
+  refuses({.feedback_iterations = 0});
 }
 
 TEST(MpcController, SurvivesStatesThatAreNone) {
