@@ -50,11 +50,13 @@ void ContactTimeline::extend(double now, double until) {
   }
   // After a long pause in the same phase of a stride, without the swings that nobody planned.
   if (next_lift_ < now - kRemembered) next_lift_ += pattern_.stride * std::floor((now - next_lift_) / pattern_.stride);
+  const bool waits = keeps_three_feet();
   while (next_lift_ < until) {
     for (const int foot : pattern_.groups[next_group_]) {
       std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];
       const double lift = swings.empty() ? next_lift_ : std::max(next_lift_, swings.back().land + kShortestStance);
-      if (swings.size() < kMostSwings) swings.push_back({lift, lift + pattern_.swing(), lift + pattern_.swing(), lift});
+      if (swings.size() < kMostSwings)
+        swings.push_back({lift, lift + pattern_.swing(), lift + pattern_.swing(), lift, waits});
     }
     next_lift_ += pattern_.stride / static_cast<double>(pattern_.groups.size());
     next_group_ = (next_group_ + 1) % pattern_.groups.size();
@@ -110,7 +112,7 @@ void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
 
 void ContactTimeline::feel(const std::vector<bool>& touches, double t, double delay) {
   for (int f = 0; f < num_feet(); ++f) feel(f, touches[static_cast<std::size_t>(f)], t, delay + kSoon);
-  if (keeps_three_feet()) await_landings(t, delay + kSoon);
+  await_landings(t, delay + kSoon);
 }
 
 /// If its groups swing one after the other.
@@ -125,7 +127,7 @@ bool ContactTimeline::keeps_three_feet() const {
 void ContactTimeline::await_landings(double t, double soon) {
   for (std::vector<Swing>& swings : swings_) {
     for (Swing& swing : swings) {
-      if (swing.lift <= t) continue;
+      if (!swing.waits || swing.lift <= t) continue;
       double lift = std::max(swing.first_lift, std::min(swing.lift, t + soon));
       for (const std::vector<Swing>& of_foot : swings_) {
         for (const Swing& other : of_foot) {

@@ -15,14 +15,15 @@ struct SteppingPattern {
 };
 
 /// Swings of each foot in absolute time. Patterns are appended at its end: a change of pattern never alters what a
-/// controller has planned already. Detected contacts move single landings. No allocation after construction but by
-/// follow().
+/// controller has planned already. Detected contacts move landings, and in a walk lift-offs. No allocation after
+/// construction but by follow().
 class ContactTimeline {
  public:
   struct Swing {
     double lift = 0.0, land = 0.0;  ///< [s]
     double planned = 0.0;           ///< landing before corrections by felt contacts [s]
     double first_lift = 0.0;        ///< lift-off if no other foot is late [s]
+    bool waits = false;             ///< lifts off only after the landings before it
     bool has_touched = false;       ///< its landing was felt
   };
 
@@ -46,8 +47,8 @@ class ContactTimeline {
   /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has
   /// landed. One that does not touch lands at t + `soon` [s] at the earliest, but at most kMostLate later than planned.
   void feel(int foot, bool touches, double t, double soon);
-  /// The same for all feet. What is planned at t acts `delay` [s] later. If the pattern keeps three feet on the ground,
-  /// as a walk does, feet wait for late landings before they lift off.
+  /// The same for all feet. What is planned at t acts `delay` [s] later. In a pattern that keeps three feet on the
+  /// ground, as a walk does, feet wait for late landings before they lift off.
   void feel(const std::vector<bool>& touches, double t, double delay);
   /// Time by which a landing that is scheduled for `landing` is late at time t [s]; 0 if it is not.
   double lateness(int foot, double landing, double t) const;

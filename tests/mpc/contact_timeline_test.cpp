@@ -107,6 +107,19 @@ TEST(ContactTimeline, AFootOfAWalkWaitsUntilTheOneBeforeHasLanded) {
   EXPECT_NE(trot.swing(1, kTrot.stride / 2 + 0.001), nullptr);
 }
 
+TEST(ContactTimeline, TheLastFeetOfATrotDoNotWaitEither) {
+  for (const SteppingPattern& next : {SteppingPattern{}, SteppingPattern{{{0}, {1}, {2}, {3}}, 0.8, 0.77}}) {
+    ContactTimeline timeline(4, 0.0);
+    timeline.follow(kTrot);
+    timeline.extend(0.0, 0.4);
+    timeline.follow(next);
+    const double lift = kTrot.stride / 2;
+    for (double t = 0.0; t < lift; t += 0.01) timeline.feel({false, true, true, true}, t, 0.02);
+    EXPECT_NE(timeline.swing(0, lift + 0.005), nullptr) << "is late";
+    EXPECT_NE(timeline.swing(1, lift + 0.005), nullptr);
+  }
+}
+
 TEST(ContactTimeline, GoesOnAfterALongPause) {
   ContactTimeline timeline(4, 0.0), steady(4, 0.0);
   timeline.follow(kTrot);
