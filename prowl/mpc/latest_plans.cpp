@@ -7,12 +7,12 @@
 namespace prowl {
 namespace {
 
-constexpr double kAlways = -std::numeric_limits<double>::infinity();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 LatestPlans::LatestPlans(const RobotModel& robot, const MpcPlan& first)
-    : robot_(robot), kept_(kLongestDelay + 1, Kept{first, kAlways}) {}
+    : robot_(robot), kept_(kLongestDelay + 1, Kept{first, -kNever}) {}
 
 void LatestPlans::swap(std::size_t i, std::size_t j) {
   std::swap(kept_[i].plan.steps(), kept_[j].plan.steps());
@@ -20,14 +20,13 @@ void LatestPlans::swap(std::size_t i, std::size_t j) {
 }
 
 MpcPlan& LatestPlans::begin_next() {
-  for (std::size_t i = kept_.size() - 1; i > 0; --i) swap(i, i - 1);
-  kept_.front().ready = kAlways;
+  const bool replaces = kept_.front().ready == kNever;
+  for (std::size_t i = kept_.size() - 1; i > 0 && !replaces; --i) swap(i, i - 1);
+  kept_.front().ready = -kNever;
   return kept_.front().plan;
 }
 
-void LatestPlans::drop_latest() {
-  for (std::size_t i = 0; i + 1 < kept_.size(); ++i) swap(i, i + 1);
-}
+void LatestPlans::drop_latest() { act_from(kNever); }
 
 /// Before any has begun, the one that begins first.
 const MpcPlan& LatestPlans::acting(double t) const {

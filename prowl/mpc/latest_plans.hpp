@@ -21,7 +21,7 @@ class LatestPlans {
   const MpcPlan& latest() const { return kept_.front().plan; }
   /// The place of a new plan, to be written by the caller: it is the latest from now on.
   MpcPlan& begin_next();
-  /// Drops the latest plan, which came too late: those before go on.
+  /// The latest plan came too late and never acts: those before go on. It stays the latest until the next begins.
   void drop_latest();
   /// The latest plan becomes ready at time t [s]: it acts from then on.
   void act_from(double t) { kept_.front().ready = t; }
@@ -33,7 +33,7 @@ class LatestPlans {
  private:
   struct Kept {
     MpcPlan plan;
-    double ready;  ///< time from which it may act [s]
+    double ready;  ///< time from which it may act [s]; infinite if it was dropped
   };
   const MpcPlan& acting(double t) const;
   void swap(std::size_t i, std::size_t j);

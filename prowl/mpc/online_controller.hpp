@@ -53,7 +53,7 @@ class OnlineController {
   bool plan(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t);
   /// Computing time of the latest plan [s], where `on_thread` is the CPU time of the calling thread.
   virtual double computing_time(double on_thread) const { return on_thread; }
-  /// Drops the latest plan, which came too late: the one before goes on.
+  /// The latest plan came too late and never acts: the one before goes on. The next plan starts from it all the same.
   void drop_latest() { plans_.drop_latest(); }
   /// The latest plan becomes ready at time t [s].
   void act_from(double t) { plans_.act_from(t); }

@@ -50,7 +50,18 @@ TEST(LatestPlans, ADroppedPlanNeverActs) {
   two.add(0.05, 2.0);
   two.plans.drop_latest();
   EXPECT_EQ(two.torque(0.06), 1.0);
-  EXPECT_EQ(two.plans.latest().start(), 0.0);
+  EXPECT_EQ(two.plans.latest().start(), 0.05) << "the next plan starts from it";
+  two.add(0.06, 3.0);
+  EXPECT_EQ(two.torque(0.06), 3.0);
+}
+
+TEST(LatestPlans, TheOneBeforeManyDroppedPlansGoesOn) {
+  Plans many;
+  for (int k = 1; k < 3 * LatestPlans::kLongestDelay; ++k) {
+    many.add(1e-3 * k, 2.0);
+    many.plans.drop_latest();
+  }
+  EXPECT_EQ(many.torque(0.09), 1.0);
 }
 
 /// A plan every 10 ms that begins 12 ms after it was made. Sums of times differ in their last bits.
