@@ -27,7 +27,7 @@ void BarrierRows::for_each_bound(Rows& rows, const Each& each) {
   }
 }
 
-BarrierRows::BarrierRows(Index rows) : penalty_(VectorXd::Constant(rows, kHard)) {
+BarrierRows::BarrierRows(Index rows) : penalty_(VectorXd::Constant(rows, kHard)), change_(VectorXd::Zero(rows)) {
   lower_.sign = 1.0;
   upper_.sign = -1.0;
   for (Side* side : {&lower_, &upper_}) {
@@ -40,6 +40,7 @@ BarrierRows::BarrierRows(Index rows) : penalty_(VectorXd::Constant(rows, kHard))
     side->target.setZero(rows);
     side->compliance.setOnes(rows);
     side->gap.setZero(rows);
+    for (VectorXd* step : {&side->d_step, &side->z_step, &side->t_step}) step->setZero(rows);
   }
 }
 
@@ -135,44 +136,45 @@ void BarrierRows::aim(double mu, VectorXd& pull) {
   });
 }
 
-void BarrierRows::correct(double mu, const VectorXd& change, VectorXd& pull) {
+void BarrierRows::find_steps(const VectorXd& change) {
+  change_ = change;
+  for_each_bound(*this, [&](Side& side, Index row) {
+    const double d = side.d(row), z = side.z(row), t = side.t(row), y = penalty_(row) - z;
+    const double dz = (side.target(row) - side.sign * change(row)) / side.compliance(row);
+    side.z_step(row) = dz;
+    side.d_step(row) = side.zd(row) / z - d - d / z * dz;
+    side.t_step(row) = is_soft(row) ? side.yt(row) / y - t + t / y * dz : 0.0;
+  });
+}
+
+void BarrierRows::correct(double mu, VectorXd& pull) {
   mu_ = mu;
   pull.setZero(size());
   for_each_bound(*this, [&](Side& side, Index row) {
-    const Move step = move(side, row, change(row));
-    side.zd(row) = mu - step.z * step.d;
-    side.yt(row) = mu + step.z * step.t;
+    side.zd(row) = mu - side.z_step(row) * side.d_step(row);
+    side.yt(row) = mu + side.z_step(row) * side.t_step(row);
     set_target(side, row, pull);
   });
 }
 
-BarrierRows::Move BarrierRows::move(const Side& side, Index row, double change) const {
-  const double d = side.d(row), z = side.z(row), t = side.t(row);
-  const double dz = (side.target(row) - side.sign * change) / side.compliance(row);
-  const double y = penalty_(row) - z;
-  return {side.zd(row) / z - d - d / z * dz, dz, is_soft(row) ? side.yt(row) / y - t + t / y * dz : 0.0};
-}
-
-double BarrierRows::longest(const VectorXd& change) const {
+double BarrierRows::longest() const {
   double share = 1.0;
   const auto keep = [&share](double value, double step) {
     if (step < 0.0) share = std::min(share, -(1.0 - kKept) * value / step);
   };
   for_each_bound(*this, [&](const Side& side, Index row) {
-    const Move step = move(side, row, change(row));
-    keep(side.d(row), step.d);
-    keep(side.t(row), step.t);
+    keep(side.d(row), side.d_step(row));
+    keep(side.t(row), side.t_step(row));
   });
   return share;
 }
 
-double BarrierRows::products(const VectorXd& change, double share) const {
+double BarrierRows::products(double share) const {
   double sum = 0.0;
   for_each_bound(*this, [&](const Side& side, Index row) {
-    const Move step = move(side, row, change(row));
-    const double z = side.z(row) + share * step.z;
-    sum += z * (side.d(row) + share * step.d);
-    if (is_soft(row)) sum += (penalty_(row) - z) * (side.t(row) + share * step.t);
+    const double z = side.z(row) + share * side.z_step(row);
+    sum += z * (side.d(row) + share * side.d_step(row));
+    if (is_soft(row)) sum += (penalty_(row) - z) * (side.t(row) + share * side.t_step(row));
   });
   return sum;
 }
@@ -183,22 +185,21 @@ int BarrierRows::num_products() const {
   return count;
 }
 
-double BarrierRows::step(const VectorXd& change, double share) {
+double BarrierRows::step(double share) {
   double farthest = 0.0;
   for_each_bound(*this, [&](Side& side, Index row) {
     double &d = side.d(row), &z = side.z(row), &t = side.t(row);
-    const Move step = move(side, row, change(row));
     if (is_soft(row)) {
       const double y = penalty_(row) - z;
-      t = std::max(t + share * step.t, kKept * t);
-      z = std::clamp(z + step.z, kKept * z, penalty_(row) - kKept * y);
+      t = std::max(t + share * side.t_step(row), kKept * t);
+      z = std::clamp(z + side.z_step(row), kKept * z, penalty_(row) - kKept * y);
     } else {
-      z = std::max(z + step.z, kKept * z);
+      z = std::max(z + side.z_step(row), kKept * z);
     }
-    d = std::max({d + share * step.d, kKept * d, kLeastDistance});
+    d = std::max({d + share * side.d_step(row), kKept * d, kLeastDistance});
     const double central = mu_ / d;
     z = std::clamp(z, central / kSpread, central * kSpread);
-    const double now = side.gap(row) + side.sign * share * change(row);
+    const double now = side.gap(row) + side.sign * share * change_(row);
     farthest = std::max(farthest, std::abs(now - (d - elastic(side, row))));
   });
   return farthest;

@@ -24,6 +24,7 @@ class BarrierRows {
   void set_bounds(Eigen::Index row, double lower, double upper, double penalty);
   const Eigen::VectorXd& lower() const { return lower_.at; }
   const Eigen::VectorXd& upper() const { return upper_.at; }
+  const Eigen::VectorXd& penalty() const { return penalty_; }
   /// Lets all bounds start like that.
   void reset();
   /// Copies bounds, distances, multipliers and elastic variables from a neighbouring stage; multipliers times `factor`.
@@ -37,16 +38,17 @@ class BarrierRows {
   void linearise(const Eigen::VectorXd& values, double mu, Eigen::VectorXd& weights);
   /// After linearise(): pull of each row, the derivative of the Lagrangian in r, for a step to the path of mu.
   void aim(double mu, Eigen::VectorXd& pull);
-  /// After aim(0) and the step `change` of the rows that it gave: the pull with the products of second order of that
-  /// step, as in Mehrotra 1992.
-  void correct(double mu, const Eigen::VectorXd& change, Eigen::VectorXd& pull);
-  /// After aim() or correct(): takes this share of a step of the rows; of the multipliers as much as each allows.
-  /// Returns how far distances then are from the rows, at most [units of rows].
-  double step(const Eigen::VectorXd& change, double share = 1.0);
-  /// The share of a step, at most 1, that keeps all distances and elastic variables positive.
-  double longest(const Eigen::VectorXd& change) const;
-  /// Sum of z d and (penalty - z) t after this share of a step, and the number of these products.
-  double products(const Eigen::VectorXd& change, double share) const;
+  /// After aim() or correct(): the steps of all bounds that go with this step of the rows.
+  void find_steps(const Eigen::VectorXd& change);
+  /// After aim(0) and find_steps(): the pull with the products of second order of these steps, as in Mehrotra 1992.
+  void correct(double mu, Eigen::VectorXd& pull);
+  /// After find_steps(): takes this share of them; of the multipliers as much as each allows. Returns how far distances
+  /// then are from the rows, at most [units of rows].
+  double step(double share = 1.0);
+  /// The share of the steps, at most 1, that keeps all distances and elastic variables positive.
+  double longest() const;
+  /// Sum of z d and (penalty - z) t after this share of the steps, and the number of these products.
+  double products(double share) const;
   int num_products() const;
   /// Multipliers of the rows in the Lagrangian: negative at lower bounds.
   void multipliers(Eigen::VectorXd& result) const;
@@ -58,6 +60,7 @@ class BarrierRows {
     Eigen::VectorXd zd, yt;              ///< products z d and (penalty - z) t that the step aims at
     Eigen::VectorXd target, compliance;  ///< dz = (target - sign change) / compliance
     Eigen::VectorXd gap;                 ///< of the latest linearise()
+    Eigen::VectorXd d_step, z_step, t_step;
   };
   bool is_bound(const Side& side, Eigen::Index row) const { return std::abs(side.at(row)) < kHard; }
   /// each(side, row) for all finite bounds of these `rows`, lower ones first.
@@ -66,17 +69,12 @@ class BarrierRows {
   bool is_soft(Eigen::Index row) const { return penalty_(row) < kHard; }
   /// How far the bound gives way; a hard one does not.
   double elastic(const Side& side, Eigen::Index row) const { return is_soft(row) ? side.t(row) : 0.0; }
-  /// Newton's step of one bound.
-  struct Move {
-    double d, z, t;
-  };
-  Move move(const Side& side, Eigen::Index row, double change) const;
   void set_target(Side& side, Eigen::Index row, Eigen::VectorXd& pull);
   void center(Side& side, Eigen::Index row, double value, double mu);
   double gap(const Side& side, Eigen::Index row, double value) const { return side.sign * (value - side.at(row)); }
 
   Side lower_, upper_;
-  Eigen::VectorXd penalty_;
+  Eigen::VectorXd penalty_, change_;
   double mu_ = 0.0;  ///< that the step aims at
 };
 

@@ -38,6 +38,7 @@ HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterat
     pull_.emplace_back(VectorXd::Zero(size.inequalities));
     inequalities_.emplace_back(VectorXd::Zero(size.inequalities));
     gradient_.emplace_back(VectorXd::Zero(size.variables()));
+    slopes_.emplace_back(VectorXd::Zero(size.variables()));
     step_.emplace_back(VectorXd::Zero(size.variables()));
     equalities_.emplace_back(VectorXd::Zero(size.equalities));
     links_.emplace_back(VectorXd::Zero(k + 1 < program.num_stages() ? size.states : 0));
@@ -67,6 +68,7 @@ bool HorizonSolver::prepare() {
       links_[k] = program_.link(k);
       inequalities_[k] = program_.inequalities(k);
       step_[k].setZero();
+      slopes_[k] = program_.cost_gradient(k);
       violation_ = std::max(violation_, equalities_[k].lpNorm<Eigen::Infinity>());
       if (k + 1 < stages) violation_ = std::max(violation_, links_[k].lpNorm<Eigen::Infinity>());
       if (!program_.cost_gradient(k).allFinite() || !is_finite(program_.equality_slopes(k))) return false;
@@ -81,6 +83,7 @@ bool HorizonSolver::prepare() {
   states_.setZero();
   if (!factorise() || !solve(stages, iterations_)) return false;
   set_weights();
+  set_slopes();
   aim(barrier_);
   return factorise();
 }
@@ -104,15 +107,21 @@ void HorizonSolver::aim(double barrier) {
 
 void HorizonSolver::correct(double barrier) {
   for (int k = 0; k < program_.num_stages(); ++k)
-    rows_[k].correct(scaled(barrier, k), kkt_.along_inequalities()[k], pull_[k]);
+    rows_[k].correct(scaled(barrier, k), pull_[k]);
   set_gradient();
 }
 
-/// At the variables plus the step so far.
+/// Of the cost, at the variables plus the step so far.
+void HorizonSolver::set_slopes() {
+  for (int k = 0; k < program_.num_stages(); ++k) {
+    slopes_[k] = program_.cost_gradient(k);
+    slopes_[k].noalias() += program_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step_[k];
+  }
+}
+
 void HorizonSolver::set_gradient() {
   for (int k = 0; k < program_.num_stages(); ++k) {
-    gradient_[k] = program_.cost_gradient(k);
-    gradient_[k].noalias() += program_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step_[k];
+    gradient_[k] = slopes_[k];
     program_.add_pull_back(k, nothing_, pull_[k], gradient_[k]);
   }
 }
@@ -134,6 +143,7 @@ bool HorizonSolver::find_direction() {
   kkt_.solve(gradient_, equalities_, links_, std::numeric_limits<double>::infinity());
   for (int k = 0; k < program_.num_stages(); ++k) {
     if (!kkt_.steps()[k].allFinite() || !kkt_.on_equalities()[k].allFinite()) return false;
+    rows_[k].find_steps(kkt_.along_inequalities()[k]);
   }
   return true;
 }
@@ -141,16 +151,15 @@ bool HorizonSolver::find_direction() {
 double HorizonSolver::longest() const {
   double share = 1.0;
   for (int k = 0; k < program_.num_stages(); ++k)
-    share = std::min(share, rows_[k].longest(kkt_.along_inequalities()[k]));
+    share = std::min(share, rows_[k].longest());
   return share;
 }
 
 void HorizonSolver::take(double share) {
   for (int k = 0; k < program_.num_stages(); ++k) {
-    const VectorXd& along = kkt_.along_inequalities()[k];
-    residuals_[k] = rows_[k].step(along, share);
+    residuals_[k] = rows_[k].step(share);
     step_[k] += share * kkt_.steps()[k];
-    inequalities_[k] += share * along;
+    inequalities_[k] += share * kkt_.along_inequalities()[k];
     equalities_[k] *= 1.0 - share;
     links_[k] *= 1.0 - share;
   }
@@ -159,7 +168,7 @@ void HorizonSolver::take(double share) {
 
 double HorizonSolver::products(double share) const {
   double sum = 0.0;
-  for (int k = 0; k < program_.num_stages(); ++k) sum += rows_[k].products(kkt_.along_inequalities()[k], share);
+  for (int k = 0; k < program_.num_stages(); ++k) sum += rows_[k].products(share);
   return sum;
 }
 
@@ -182,6 +191,7 @@ bool HorizonSolver::solve_anew(int judged, int most_iterations) {
   const auto mean_product = [&](double share) { return products(share) / std::max(count, 1); };
   for (bool is_solved = false; !is_solved && done_ < most_iterations; ++done_) {
     set_weights();
+    set_slopes();
     aim(0.0);
     if (!factorise() || !find_direction()) return false;
     const double before = mean_product(0.0), ahead = mean_product(longest()) / before;

@@ -28,9 +28,17 @@ void StageCondenser::add(const StageSlopes& stage, const MatrixXd& next_hessian,
     on_states_transposed_ = on_states_.transpose();
     kernels_.add_lower_sparse(result, on_states_transposed_, stage.next);
   }
+  // Many rows have no bound, such as the friction of a foot in the air.
   const Index rows = stage.rows.cols();
-  weighted_ = stage.rows * weights.head(rows).asDiagonal();
-  kernels_.add_lower(result, stage.rows, weighted_);
+  bounded_.resize(stage.rows.rows(), rows);
+  weighted_.resize(stage.rows.rows(), rows);
+  Index count = 0;
+  for (Index i = 0; i < rows; ++i) {
+    if (weights(i) == 0.0) continue;
+    bounded_.col(count) = stage.rows.col(i);
+    weighted_.col(count++) = weights(i) * stage.rows.col(i);
+  }
+  kernels_.add_lower(result, bounded_.leftCols(count), weighted_.leftCols(count));
   using Entry = Eigen::SparseMatrix<double>::InnerIterator;
   for (Index i = 0; i < stage.bounds.cols(); ++i) {
     for (Entry column(stage.bounds, i); column; ++column) {

@@ -30,7 +30,7 @@ class StageCondenser {
 
  private:
   MatrixKernels kernels_;
-  Eigen::MatrixXd weighted_, on_states_, on_states_transposed_;
+  Eigen::MatrixXd bounded_, weighted_, on_states_, on_states_transposed_;
 };
 
 }  // namespace prowl

@@ -21,7 +21,8 @@ double minimise(BarrierRows& rows, double goal, double x, int iterations) {
     rows.linearise(values, kBarrier, weights);
     rows.aim(kBarrier, pull);
     const double step = -(x - goal + pull(0)) / (1.0 + weights(0));
-    rows.step(VectorXd::Constant(1, step));
+    rows.find_steps(VectorXd::Constant(1, step));
+    rows.step();
     x += step;
   }
   return x;
@@ -68,10 +69,12 @@ TEST(BarrierRows, TellsHowFarItIsFromTheRows) {
   VectorXd weights, pull;
   rows.linearise(VectorXd::Constant(1, 1.0), kBarrier, weights);
   rows.aim(kBarrier, pull);
-  EXPECT_LT(rows.step(VectorXd::Constant(1, -0.5)), 1e-12);
+  rows.find_steps(VectorXd::Constant(1, -0.5));
+  EXPECT_LT(rows.step(), 1e-12);
   rows.linearise(VectorXd::Constant(1, 0.5), kBarrier, weights);
   rows.aim(kBarrier, pull);
-  EXPECT_GT(rows.step(VectorXd::Constant(1, -2.5)), 2.0) << "a step far beyond the bound";
+  rows.find_steps(VectorXd::Constant(1, -2.5));
+  EXPECT_GT(rows.step(), 2.0) << "a step far beyond the bound";
 }
 
 TEST(BarrierRows, PredictorAndCorrectorFindANewActiveBoundFast) {
@@ -88,13 +91,13 @@ TEST(BarrierRows, PredictorAndCorrectorFindANewActiveBoundFast) {
           return VectorXd(-(values - VectorXd::Constant(1, goal) + pull) / (1.0 + weights(0)));
         };
         rows.aim(0.0, pull);
-        VectorXd step = change();
-        const double ahead = rows.products(step, rows.longest(step)) / rows.products(step, 0.0);
-        rows.correct(std::max(kBarrier, std::pow(ahead, 3) * rows.products(step, 0.0) / rows.num_products()), step,
-                     pull);
-        step = change();
-        const double share = rows.longest(step);
-        rows.step(step, share);
+        rows.find_steps(change());
+        const double ahead = rows.products(rows.longest()) / rows.products(0.0);
+        rows.correct(std::max(kBarrier, std::pow(ahead, 3) * rows.products(0.0) / rows.num_products()), pull);
+        const VectorXd step = change();
+        rows.find_steps(step);
+        const double share = rows.longest();
+        rows.step(share);
         values += share * step;
       }
       EXPECT_NEAR(values(0), std::clamp(goal, 0.0, 1.0), 1e-4) << goal << " " << price;
