@@ -1,5 +1,6 @@
 #include "prowl/mpc/horizon_bounds.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,6 +19,9 @@ constexpr double kLandingLoad = 0.15, kLoadRate = 15.0;
 constexpr double kFrictionPrice = 10.0;  ///< of friction in later steps, times the price of others: it hardly gives way
 /// A foot lands so far below the ground [m], within kOnGround, and searches it this fast if it does not find it [m/s].
 constexpr double kPress = 4e-3, kOnGround = 4e-3, kSearch = 0.3;
+/// The height at a landing counts as that of a swing for so long at least [s], a long step of a horizon: a landing is
+/// bound in one step, however short that is. Cheaper landings end above the ground: Go2 walked until it fell.
+constexpr double kLandingPriceTime = 0.05;
 
 }  // namespace
 
@@ -48,7 +52,8 @@ void HorizonBounds::set(const HorizonGrid& grid, const ContactTimeline& timeline
         for (int i = 0; i < FrictionLimit::kMostRows; ++i)
           rows.set_bounds(program_.friction_row(contact) + i, stands ? 0.0 : -kInfinity, foot.most_friction / force,
                           friction_price);
-        rows.set_bounds(program_.height_row(contact), foot.least / length, foot.most / length, price);
+        rows.set_bounds(program_.height_row(contact), foot.least / length, foot.most / length,
+                        options_.weights.penalty * foot.price_time);
         for (int axis = 0; axis < 3; ++axis)
           rows.set_bounds(program_.contact_velocity_row(contact) + axis, -foot.fastest / speed, foot.fastest / speed,
                           price);
@@ -68,7 +73,8 @@ HorizonBounds::FootBounds HorizonBounds::bounds_of(int foot, int k, double groun
                                                    const ContactTimeline& timeline) const {
   const double t = grid.middle(k);
   const auto stands_in = [&](int step) { return ((program_.step(step).standing >> foot) & 1U) != 0; };
-  FootBounds bounds{-kInfinity, kInfinity, kInfinity, stands_in(k) ? most_friction(foot, t, timeline) : kInfinity};
+  FootBounds bounds{-kInfinity, kInfinity, kInfinity, stands_in(k) ? most_friction(foot, t, timeline) : kInfinity,
+                    grid.step(k)};
   if (const ContactTimeline::Swing* const swing = timeline.swing(foot, t)) {
     const double s = (t - swing->lift) / (swing->land - swing->lift), left = swing->land - t;
     bounds.least = ground + options_.clearance * program_.standing_posture().z() * swing_profile(s);
@@ -80,6 +86,7 @@ HorizonBounds::FootBounds HorizonBounds::bounds_of(int foot, int k, double groun
   } else if (k > 0 && !stands_in(k - 1)) {  // lands at the start of this step
     bounds.most = ground - (kPress + kSearch * timeline.lateness(foot, grid.time(k), grid.time(0)));
     bounds.least = bounds.most - kOnGround;
+    bounds.price_time = std::max(grid.step(k), kLandingPriceTime);
   }
   return bounds;
 }

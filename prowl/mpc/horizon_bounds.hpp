@@ -30,6 +30,7 @@ class HorizonBounds {
     double least, most;    ///< height of its contacts [m]
     double fastest;        ///< their velocity along each axis [m/s]
     double most_friction;  ///< of their friction rows [N]
+    double price_time;     ///< their height counts in the cost for so long [s]
   };
   FootBounds bounds_of(int foot, int k, double ground, const HorizonGrid& grid, const ContactTimeline& timeline) const;
   double most_friction(int foot, double t, const ContactTimeline& timeline) const;

@@ -93,6 +93,22 @@ TEST(HorizonBounds, AFootLandsOnTheGround) {
   EXPECT_GT(trot.lower_height(landing, 0), -0.01);
 }
 
+/// Else a plan buys a foothold in the air where legs are fast, and the robot falls.
+TEST(HorizonBounds, AShortStepMakesALandingNoCheaper) {
+  Trot trot;
+  const auto price_of_landing = [&](double start) {
+    trot.lay(start);
+    const int landing = trot.grid.step_at(0.2 + 1e-6);
+    return trot.solver.rows(landing).penalty()(trot.program.height_row(0));
+  };
+  const double soon = price_of_landing(0.195);
+  EXPECT_LT(trot.grid.step(1), 0.02) << "the step of the landing";
+  trot.lay(0.0);
+  const double of_shortest_step = trot.options.weights.penalty * trot.grid.step(0);
+  EXPECT_GT(soon, 2.0 * of_shortest_step);
+  for (const double start : {0.0, 0.05, 0.1, 0.15}) EXPECT_EQ(price_of_landing(start), soon) << start;
+}
+
 /// A foot that finds no ground searches below it.
 TEST(HorizonBounds, ALateFootLandsLower) {
   Trot trot;
