@@ -18,7 +18,7 @@ struct MpcOptions {
   double delay = 0.0;
   double barrier = 1e-5;        ///< mu, of a step of mean length [-]
   int iterations = 10;          ///< maximum of an update before the state is measured
-  int feedback_iterations = 6;  ///< and after
+  int feedback_iterations = 3;  ///< and after
   HessianKind hessian = HessianKind::gauss_newton_with_cones;
 };
 
