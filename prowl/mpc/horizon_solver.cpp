@@ -106,8 +106,7 @@ void HorizonSolver::aim(double barrier) {
 }
 
 void HorizonSolver::correct(double barrier) {
-  for (int k = 0; k < program_.num_stages(); ++k)
-    rows_[k].correct(scaled(barrier, k), pull_[k]);
+  for (int k = 0; k < program_.num_stages(); ++k) rows_[k].correct(scaled(barrier, k), pull_[k]);
   set_gradient();
 }
 
@@ -150,8 +149,7 @@ bool HorizonSolver::find_direction() {
 
 double HorizonSolver::longest() const {
   double share = 1.0;
-  for (int k = 0; k < program_.num_stages(); ++k)
-    share = std::min(share, rows_[k].longest());
+  for (int k = 0; k < program_.num_stages(); ++k) share = std::min(share, rows_[k].longest());
   return share;
 }
 
