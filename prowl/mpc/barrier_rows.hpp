@@ -57,10 +57,10 @@ class BarrierRows {
   struct Side {
     double sign = 1.0;
     Eigen::VectorXd at, d, z, t;
-    Eigen::VectorXd zd, yt;              ///< products z d and (penalty - z) t that the step aims at
-    Eigen::VectorXd target, compliance;  ///< dz = (target - sign change) / compliance
-    Eigen::VectorXd gap;                 ///< of the latest linearise()
-    Eigen::VectorXd d_step, z_step, t_step;
+    Eigen::VectorXd zd, yt;                  ///< products z d and (penalty - z) t that the step aims at
+    Eigen::VectorXd target, compliance;      ///< dz = (target - sign change) / compliance
+    Eigen::VectorXd gap;                     ///< of the latest linearise()
+    Eigen::VectorXd d_step, z_step, t_step;  ///< of the latest find_steps()
   };
   bool is_bound(const Side& side, Eigen::Index row) const { return std::abs(side.at(row)) < kHard; }
   /// each(side, row) for all finite bounds of these `rows`, lower ones first.

@@ -20,7 +20,7 @@ constexpr double kFrictionPrice = 10.0;  ///< of friction in later steps, times 
 /// A foot lands so far below the ground [m], within kOnGround, and searches it this fast if it does not find it [m/s].
 constexpr double kPress = 4e-3, kOnGround = 4e-3, kSearch = 0.3;
 /// The height at a landing counts as that of a swing for so long at least [s], a long step of a horizon: a landing is
-/// bound in one step, however short that is. Cheaper landings end above the ground: Go2 walked until it fell.
+/// bound in one step, however short that is. If it is cheaper, plans land feet above the ground: then Go2 falls.
 constexpr double kLandingPriceTime = 0.05;
 
 }  // namespace

@@ -38,7 +38,7 @@ HorizonSolver::HorizonSolver(HorizonProgram& program, double barrier, int iterat
     pull_.emplace_back(VectorXd::Zero(size.inequalities));
     inequalities_.emplace_back(VectorXd::Zero(size.inequalities));
     gradient_.emplace_back(VectorXd::Zero(size.variables()));
-    slopes_.emplace_back(VectorXd::Zero(size.variables()));
+    cost_gradient_.emplace_back(VectorXd::Zero(size.variables()));
     step_.emplace_back(VectorXd::Zero(size.variables()));
     equalities_.emplace_back(VectorXd::Zero(size.equalities));
     links_.emplace_back(VectorXd::Zero(k + 1 < program.num_stages() ? size.states : 0));
@@ -68,7 +68,7 @@ bool HorizonSolver::prepare() {
       links_[k] = program_.link(k);
       inequalities_[k] = program_.inequalities(k);
       step_[k].setZero();
-      slopes_[k] = program_.cost_gradient(k);
+      cost_gradient_[k] = program_.cost_gradient(k);
       violation_ = std::max(violation_, equalities_[k].lpNorm<Eigen::Infinity>());
       if (k + 1 < stages) violation_ = std::max(violation_, links_[k].lpNorm<Eigen::Infinity>());
       if (!program_.cost_gradient(k).allFinite() || !is_finite(program_.equality_slopes(k))) return false;
@@ -83,7 +83,7 @@ bool HorizonSolver::prepare() {
   states_.setZero();
   if (!factorise() || !solve(stages, iterations_)) return false;
   set_weights();
-  set_slopes();
+  set_cost_gradient();
   aim(barrier_);
   return factorise();
 }
@@ -111,16 +111,16 @@ void HorizonSolver::correct(double barrier) {
 }
 
 /// Of the cost, at the variables plus the step so far.
-void HorizonSolver::set_slopes() {
+void HorizonSolver::set_cost_gradient() {
   for (int k = 0; k < program_.num_stages(); ++k) {
-    slopes_[k] = program_.cost_gradient(k);
-    slopes_[k].noalias() += program_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step_[k];
+    cost_gradient_[k] = program_.cost_gradient(k);
+    cost_gradient_[k].noalias() += program_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step_[k];
   }
 }
 
 void HorizonSolver::set_gradient() {
   for (int k = 0; k < program_.num_stages(); ++k) {
-    gradient_[k] = slopes_[k];
+    gradient_[k] = cost_gradient_[k];
     program_.add_pull_back(k, nothing_, pull_[k], gradient_[k]);
   }
 }
@@ -189,7 +189,7 @@ bool HorizonSolver::solve_anew(int judged, int most_iterations) {
   const auto mean_product = [&](double share) { return products(share) / std::max(count, 1); };
   for (bool is_solved = false; !is_solved && done_ < most_iterations; ++done_) {
     set_weights();
-    set_slopes();
+    set_cost_gradient();
     aim(0.0);
     if (!factorise() || !find_direction()) return false;
     const double before = mean_product(0.0), ahead = mean_product(longest()) / before;

@@ -51,7 +51,7 @@ class HorizonSolver {
   void set_weights();
   void aim(double barrier);
   void correct(double barrier);
-  void set_slopes();
+  void set_cost_gradient();
   void set_gradient();
   bool factorise();
   bool find_direction();
@@ -67,7 +67,7 @@ class HorizonSolver {
   std::vector<BarrierRows> rows_;
   int iterations_, feedback_iterations_, near_;  ///< near_: steps that may act before the next plans replace them
   double mean_length_ = 0.0;
-  StageVectors weights_, pull_, slopes_, gradient_, equalities_, links_;
+  StageVectors weights_, pull_, cost_gradient_, gradient_, equalities_, links_;
   StageVectors step_, inequalities_;  ///< so far in the quadratic program, and its rows there
   Eigen::VectorXd nothing_, states_, start_;
   Eigen::MatrixXd gain_;

@@ -7,12 +7,12 @@
 namespace prowl {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNever = std::numeric_limits<double>::infinity(), kAlways = -kNever;
 
 }  // namespace
 
 LatestPlans::LatestPlans(const RobotModel& robot, const MpcPlan& first)
-    : robot_(robot), kept_(kLongestDelay + 1, Kept{first, -kNever}) {}
+    : robot_(robot), kept_(kLongestDelay + 1, Kept{first, kAlways}) {}
 
 void LatestPlans::swap(std::size_t i, std::size_t j) {
   std::swap(kept_[i].plan.steps(), kept_[j].plan.steps());
@@ -20,9 +20,10 @@ void LatestPlans::swap(std::size_t i, std::size_t j) {
 }
 
 MpcPlan& LatestPlans::begin_next() {
-  const bool replaces = kept_.front().ready == kNever;
-  for (std::size_t i = kept_.size() - 1; i > 0 && !replaces; --i) swap(i, i - 1);
-  kept_.front().ready = -kNever;
+  if (kept_.front().ready < kNever) {  // one that was dropped makes room itself
+    for (std::size_t i = kept_.size() - 1; i > 0; --i) swap(i, i - 1);
+  }
+  kept_.front().ready = kAlways;
   return kept_.front().plan;
 }
 
