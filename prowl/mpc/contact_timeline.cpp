@@ -21,7 +21,7 @@ constexpr double kShortestStance = 0.02;  // between two swings of a foot [s]
 }  // namespace
 
 ContactTimeline::ContactTimeline(int num_feet, double start)
-    : next_lift_(start), swings_(static_cast<std::size_t>(num_feet)) {
+    : next_lift_(start), felt_(static_cast<std::size_t>(num_feet), start), swings_(felt_.size()) {
   for (std::vector<Swing>& swings : swings_) swings.reserve(kMostSwings);
 }
 
@@ -97,16 +97,22 @@ void ContactTimeline::add_switches(double from, double to, std::vector<double>& 
 }
 
 void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
-  Swing* latest = nullptr;
-  for (Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
-    if (swing.lift <= t) latest = &swing;
+  std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];
+  const auto next = std::ranges::find_if(swings, [t](const Swing& swing) { return swing.lift > t; });
+  double& felt = felt_[static_cast<std::size_t>(foot)];
+  if (touches) felt = t;
+  if (next == swings.begin() || std::prev(next)->has_touched) {
+    const bool lifts_soon = next != swings.end() && next->lift < t + soon;
+    if (t - felt > kLost && !lifts_soon && swings.size() < kMostSwings)
+      swings.insert(next, {.lift = felt, .land = t + soon, .planned = t, .first_lift = felt});
+    return;
   }
-  if (!latest || latest->has_touched) return;
-  if (touches && t > 0.5 * (latest->lift + latest->planned)) {
-    latest->land = std::min(latest->land, t);
-    latest->has_touched = true;
-  } else if (!touches && t < latest->planned + kMostLate) {
-    latest->land = std::max(latest->land, t + soon);
+  Swing& latest = *std::prev(next);
+  if (touches && t > 0.5 * (latest.lift + latest.planned)) {
+    latest.land = std::min(latest.land, t);
+    latest.has_touched = true;
+  } else if (!touches && t < latest.planned + kMostLate) {
+    latest.land = std::max(latest.land, t + soon);
   }
 }
 

@@ -46,6 +46,7 @@ class ContactTimeline {
   void add_switches(double from, double to, std::vector<double>& switches) const;
   /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has
   /// landed. One that does not touch lands at t + `soon` [s] at the earliest, but at most kMostLate later than planned.
+  /// One that stands without touching for kLost has lifted off, and lands in the same way.
   void feel(int foot, bool touches, double t, double soon);
   /// The same for all feet. What is planned at t acts `delay` [s] later. In a pattern that keeps three feet on the
   /// ground, as a walk does, feet wait for late landings before they lift off.
@@ -54,6 +55,9 @@ class ContactTimeline {
   double lateness(int foot, double landing, double t) const;
 
   static constexpr double kMostLate = 0.15, kLandingTime = 0.05;  ///< [s]
+  /// Walks of Go2 with kicks of 0.7 m/s fall less with 20 to 40 ms than with 50, or without. With 15, feet with little
+  /// load count as lost, and loads are planned on others that slip [s].
+  static constexpr double kLost = 0.03;
 
  private:
   bool keeps_three_feet() const;
@@ -62,6 +66,7 @@ class ContactTimeline {
   SteppingPattern pattern_;
   std::size_t next_group_ = 0;
   double next_lift_;
+  std::vector<double> felt_;  ///< when each foot touched last [s]
   std::vector<std::vector<Swing>> swings_;
 };
 

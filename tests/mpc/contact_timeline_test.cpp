@@ -70,6 +70,45 @@ TEST(ContactTimeline, ALateFootIsAwaited) {
   EXPECT_EQ(lost.swing(0, 0.2 + ContactTimeline::kMostLate + 0.011), nullptr);
 }
 
+/// A plan that still counts on such a foot pushes with it, and throws the leg up.
+TEST(ContactTimeline, AFootThatLosesTheGroundLandsAgain) {
+  constexpr double kSoon = 0.01, kLeft = 0.25, kTick = 0.001;
+  ContactTimeline trot(4, 0.0), stands(4, 0.0), undisturbed(4, 0.0);
+  for (ContactTimeline* timeline : {&trot, &undisturbed}) timeline->follow(kTrot);
+  for (ContactTimeline* timeline : {&trot, &stands, &undisturbed}) {
+    timeline->extend(0.0, 2.0);
+    for (double t = 0.0; t < kLeft; t += kTick) timeline->feel(0, true, t, kSoon);
+  }
+  for (ContactTimeline* timeline : {&trot, &stands}) {
+    const double lost = kLeft + ContactTimeline::kLost;
+    for (double t = kLeft; t < lost - kTick; t += kTick) timeline->feel(0, false, t, kSoon);
+    EXPECT_EQ(timeline->swing(0, lost - kTick), nullptr) << "may be a foot with little load";
+    double t = lost;
+    for (; t < lost + 0.02; t += kTick) timeline->feel(0, false, t, kSoon);
+    const ContactTimeline::Swing* const swing = timeline->swing(0, t);
+    ASSERT_NE(swing, nullptr);
+    EXPECT_NEAR(timeline->lateness(0, swing->land, t), t - lost, 2.0 * kTick);
+    timeline->feel(0, true, t, kSoon);
+    EXPECT_EQ(timeline->swing(0, t), nullptr) << "has landed";
+    for (t += kTick; t < 0.45; t += kTick) timeline->feel(0, true, t, kSoon);
+    EXPECT_EQ(timeline->swing(0, t), nullptr);
+  }
+  for (double t = 0.5; t < 1.9; t += 0.013) EXPECT_EQ(trot.standing(t), undisturbed.standing(t)) << t;
+}
+
+TEST(ContactTimeline, AFootIsNotLostJustBeforeItLiftsOff) {
+  constexpr double kSoon = 0.01;
+  ContactTimeline timeline(4, 0.0);
+  timeline.follow(kTrot);
+  timeline.extend(0.0, 2.0);
+  const double lift = kTrot.stride;
+  double t = 0.0;
+  for (; t < lift - ContactTimeline::kLost - 0.5 * kSoon; t += 0.001) timeline.feel(0, true, t, kSoon);
+  for (; t < lift - 0.001; t += 0.001) timeline.feel(0, false, t, kSoon);
+  EXPECT_EQ(timeline.swing(0, lift - 0.001), nullptr);
+  EXPECT_NE(timeline.swing(0, lift + 0.001), nullptr);
+}
+
 /// With two feet in the air, a robot that walks tips over.
 TEST(ContactTimeline, AFootOfAWalkWaitsUntilTheOneBeforeHasLanded) {
   constexpr double kDelay = 0.01, kTick = 0.01;
