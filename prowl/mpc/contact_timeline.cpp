@@ -17,12 +17,19 @@ constexpr double kSoon = 5e-3;
 constexpr double kSameTime = 1e-6;        ///< of a landing and a node of a horizon that ends there [s]
 constexpr double kLongestStride = 5.0;    // [s]
 constexpr double kShortestStance = 0.02;  // between two swings of a foot [s]
+/// A foot that waits for a late landing stays so long after it: longer than the plan acts that expects this landing,
+/// which would unload it else [s].
+constexpr double kStay = 0.02;
 
 }  // namespace
 
 ContactTimeline::ContactTimeline(int num_feet, double start)
-    : next_lift_(start), felt_(static_cast<std::size_t>(num_feet), start), swings_(felt_.size()) {
+    : next_lift_(start),
+      felt_(static_cast<std::size_t>(num_feet), start),
+      touches_(felt_.size(), true),
+      swings_(felt_.size()) {
   for (std::vector<Swing>& swings : swings_) swings.reserve(kMostSwings);
+  waiting_.reserve(kMostSwings * swings_.size());
 }
 
 void ContactTimeline::follow(const SteppingPattern& pattern) {
@@ -99,10 +106,11 @@ void ContactTimeline::add_switches(double from, double to, std::vector<double>& 
 void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
   std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];
   const auto next = std::ranges::find_if(swings, [t](const Swing& swing) { return swing.lift > t; });
+  const bool lifts_soon = next != swings.end() && next->lift < t + soon;
   double& felt = felt_[static_cast<std::size_t>(foot)];
+  touches_[static_cast<std::size_t>(foot)] = touches;
   if (touches) felt = t;
   if (next == swings.begin() || std::prev(next)->has_touched) {
-    const bool lifts_soon = next != swings.end() && next->lift < t + soon;
     if (t - felt > kLost && !lifts_soon && swings.size() < kMostSwings)
       swings.insert(next, {.lift = felt, .land = t + soon, .planned = t, .first_lift = felt});
     return;
@@ -111,7 +119,7 @@ void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
   if (touches && t > 0.5 * (latest.lift + latest.planned)) {
     latest.land = std::min(latest.land, t);
     latest.has_touched = true;
-  } else if (!touches && t < latest.planned + kMostLate) {
+  } else if (!touches && !lifts_soon && t < latest.planned + kMostLate) {
     latest.land = std::max(latest.land, t + soon);
   }
 }
@@ -129,22 +137,28 @@ bool ContactTimeline::keeps_three_feet() const {
 }
 
 /// A robot on two feet of a walk tips over. A foot that has waited lifts off `soon` [s] after t at the earliest, as
-/// the plan that acts until then has it on the ground.
+/// the plan that acts until then has it on the ground. Its own lost contact does not delay it.
 void ContactTimeline::await_landings(double t, double soon) {
-  for (std::vector<Swing>& swings : swings_) {
-    for (Swing& swing : swings) {
-      if (!swing.waits || swing.lift <= t) continue;
-      double lift = std::max(swing.first_lift, std::min(swing.lift, t + soon));
-      for (const std::vector<Swing>& of_foot : swings_) {
-        for (const Swing& other : of_foot) {
-          const double first_landing = other.first_lift + (other.planned - other.lift);
-          if (first_landing < swing.first_lift + kSameTime) lift = std::max(lift, other.land);
-        }
-      }
-      const double duration = swing.planned - swing.lift;
-      swing.lift = lift;
-      swing.land = swing.planned = lift + duration;
+  waiting_.clear();
+  for (std::size_t foot = 0; foot < swings_.size(); ++foot) {
+    for (Swing& swing : swings_[foot]) {
+      if (swing.waits && swing.lift > t) waiting_.push_back({foot, &swing});
     }
+  }
+  std::ranges::sort(waiting_, {}, [](const Waiting& waiting) { return waiting.swing->first_lift; });
+  for (const auto& [foot, swing] : waiting_) {
+    double lift = std::max(swing->first_lift, std::min(swing->lift, t + soon));
+    for (std::size_t f = 0; f < swings_.size(); ++f) {
+      if (f == foot) continue;
+      for (const Swing& other : swings_[f]) {
+        const double first_landing = other.first_lift + (other.planned - other.lift);
+        const bool is_late = !other.has_touched && other.planned <= t;
+        if (first_landing < swing->first_lift + kSameTime) lift = std::max(lift, other.land + (is_late ? kStay : 0.0));
+      }
+    }
+    const double duration = swing->planned - swing->lift;
+    swing->lift = lift;
+    swing->land = swing->planned = lift + duration;
   }
 }
 

@@ -40,13 +40,16 @@ class ContactTimeline {
   const Swing* swing(int foot, double t) const;
   /// Feet that stand at time t [s]. Bit f: foot f.
   unsigned standing(double t) const;
+  /// If a foot touched the ground when it was felt last.
+  bool touches(int foot) const { return touches_[static_cast<std::size_t>(foot)]; }
   /// The swing that should have ended at most kLandingTime before t [s], without a touch felt since; or nullptr.
   const Swing* unfelt(int foot, double t) const;
   /// Appends lift-offs and landings between both times [s], unordered.
   void add_switches(double from, double to, std::vector<double>& switches) const;
   /// Corrects the schedule by what a foot feels at time t [s]. A foot that touches in the second half of its swing has
-  /// landed. One that does not touch lands at t + `soon` [s] at the earliest, but at most kMostLate later than planned.
-  /// One that stands without touching for kLost has lifted off, and lands in the same way.
+  /// landed. One that does not touch lands at t + `soon` [s] at the earliest: this is put off until kMostLate after the
+  /// planned landing, or until the next lift-off. Then the foot counts as standing. One that has landed, but has not
+  /// touched for more than kLost, has lifted off, and lands in the same way. Calls should be closer than kLost.
   void feel(int foot, bool touches, double t, double soon);
   /// The same for all feet. What is planned at t acts `delay` [s] later. In a pattern that keeps three feet on the
   /// ground, as a walk does, feet wait for late landings before they lift off.
@@ -54,20 +57,29 @@ class ContactTimeline {
   /// Time by which a landing that is scheduled for `landing` is late at time t [s]; 0 if it is not.
   double lateness(int foot, double landing, double t) const;
 
-  static constexpr double kMostLate = 0.15, kLandingTime = 0.05;  ///< [s]
-  /// Walks of Go2 with kicks of 0.7 m/s fall less with 20 to 40 ms than with 50, or without. With 15, feet with little
-  /// load count as lost, and loads are planned on others that slip [s].
+  static constexpr double kMostLate = 0.15;     ///< longest wait for a landing [s]
+  static constexpr double kLandingTime = 0.05;  ///< after a landing that was not felt, loads stay limited [s]
+  /// Longest time without a touch in which a foot still counts as standing. Walks of Go2 with kicks of 0.7 m/s fall
+  /// less with 20 to 40 ms than with 50, or without. With 15, feet with little load count as lost, and loads are
+  /// planned on others that slip [s].
   static constexpr double kLost = 0.03;
 
  private:
+  struct Waiting {
+    std::size_t foot;
+    Swing* swing;
+  };
+
   bool keeps_three_feet() const;
   void await_landings(double t, double soon);
 
   SteppingPattern pattern_;
   std::size_t next_group_ = 0;
   double next_lift_;
-  std::vector<double> felt_;  ///< when each foot touched last [s]
+  std::vector<double> felt_;   ///< when each foot touched last [s]
+  std::vector<bool> touches_;  ///< if each foot did so when it was felt last
   std::vector<std::vector<Swing>> swings_;
+  std::vector<Waiting> waiting_;  ///< work space: swings that have not begun, in the order of their groups
 };
 
 }  // namespace prowl

@@ -155,11 +155,11 @@ void MpcController::read_plan() {
   }
 }
 
-/// From the contacts of feet that stand, but those that have just landed without being felt.
+/// From the contacts of feet that stand and touch, but those that have just landed without being felt.
 void MpcController::look(const VectorXd& q, double t) {
   terms_.update_kinematics(q);
   for (int f = 0; f < program_.num_feet(); ++f) {
-    if (timeline_.swing(f, t) || timeline_.unfelt(f, t)) continue;
+    if (timeline_.swing(f, t) || timeline_.unfelt(f, t) || !timeline_.touches(f)) continue;
     for (const int contact : program_.feet()[static_cast<std::size_t>(f)]) {
       const double radius = robot_.contacts()[static_cast<std::size_t>(contact)].radius;
       ground_.see(contact, terms_.contact_position(contact) - radius * Eigen::Vector3d::UnitZ());

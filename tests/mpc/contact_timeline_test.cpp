@@ -8,6 +8,7 @@ namespace prowl {
 namespace {
 
 const SteppingPattern kTrot{.groups = {{0, 3}, {1, 2}}, .stride = 0.5, .duty_factor = 0.6};
+const SteppingPattern kWalk{.groups = {{0}, {1}, {2}, {3}}, .stride = 0.8, .duty_factor = 0.77};
 
 TEST(ContactTimeline, StandsUntilAPatternBegins) {
   ContactTimeline timeline(4, 0.0);
@@ -96,6 +97,40 @@ TEST(ContactTimeline, AFootThatLosesTheGroundLandsAgain) {
   for (double t = 0.5; t < 1.9; t += 0.013) EXPECT_EQ(trot.standing(t), undisturbed.standing(t)) << t;
 }
 
+TEST(ContactTimeline, ALostFootLiftsOffOnTime) {
+  constexpr double kSoon = 0.01, kTick = 0.001;
+  ContactTimeline trot(4, 0.0), walk(4, 0.0);
+  trot.follow(kTrot);
+  walk.follow(kWalk);
+  for (const auto& [timeline, lift, swing] :
+       {std::tuple{&trot, kTrot.stride, kTrot.swing()}, std::tuple{&walk, kWalk.stride, kWalk.swing()}}) {
+    timeline->extend(0.0, 2.0);
+    double t = 0.0;
+    for (; t < lift - 0.05; t += kTick) timeline->feel({true, true, true, true}, t, kSoon);
+    for (; t < lift + 0.5 * swing; t += kTick) timeline->feel({false, true, true, true}, t, kSoon);
+    ASSERT_NE(timeline->swing(0, lift + kTick), nullptr);
+    EXPECT_NEAR(timeline->swing(0, lift + kTick)->lift, lift, 1e-9) << "not the end of another swing";
+    EXPECT_NEAR(timeline->swing(0, t)->planned, lift + swing, 1e-9);
+  }
+}
+
+TEST(ContactTimeline, FeetOfAWalkWaitForALostOne) {
+  constexpr double kDelay = 0.01, kTick = 0.001;
+  ContactTimeline walk(4, 0.0);
+  walk.follow(kWalk);
+  walk.extend(0.0, 2.0);
+  const double lift = 0.5 * kWalk.stride;  // of foot 2
+  double t = 0.0;
+  for (; t < lift - 0.08; t += kTick) walk.feel({true, true, true, true}, t, kDelay);
+  for (; t < lift + 0.02; t += kTick) walk.feel({false, true, true, true}, t, kDelay);
+  EXPECT_FALSE(walk.touches(0));
+  EXPECT_NE(walk.swing(0, t), nullptr);
+  EXPECT_EQ(walk.swing(2, t), nullptr) << "waits";
+  for (const double end = t + 0.1; t < end; t += kTick) walk.feel({true, true, true, true}, t, kDelay);
+  EXPECT_EQ(walk.swing(0, t), nullptr);
+  EXPECT_NE(walk.swing(2, t), nullptr);
+}
+
 TEST(ContactTimeline, AFootIsNotLostJustBeforeItLiftsOff) {
   constexpr double kSoon = 0.01;
   ContactTimeline timeline(4, 0.0);
@@ -113,7 +148,7 @@ TEST(ContactTimeline, AFootIsNotLostJustBeforeItLiftsOff) {
 TEST(ContactTimeline, AFootOfAWalkWaitsUntilTheOneBeforeHasLanded) {
   constexpr double kDelay = 0.01, kTick = 0.01;
   ContactTimeline walk(4, 0.0), trot(4, 0.0);
-  const SteppingPattern pattern{{{0}, {1}, {2}, {3}}, 0.8, 0.77};  // a swing of 0.184 s every 0.2 s
+  const SteppingPattern& pattern = kWalk;  // a swing of 0.184 s every 0.2 s
   walk.follow(pattern);
   trot.follow(kTrot);
   for (ContactTimeline* timeline : {&walk, &trot}) timeline->extend(0.0, 2.0);
@@ -122,11 +157,14 @@ TEST(ContactTimeline, AFootOfAWalkWaitsUntilTheOneBeforeHasLanded) {
     const std::vector<bool> none_but_late = {false, true, true, true};
     walk.feel(none_but_late, t, kDelay);
     trot.feel(none_but_late, t, kDelay);
+    for (double acts = t + kDelay; acts < t + kDelay + kTick && t > landing; acts += 0.001)
+      EXPECT_EQ(walk.swing(1, acts), nullptr)
+          << "the plan of this tick unloads a foot without whom the robot tips over";
   }
   const ContactTimeline::Swing* const late = walk.swing(0, landing + 0.05);
   ASSERT_NE(late, nullptr);
   EXPECT_EQ(walk.swing(1, lift + 0.01), nullptr) << "waits";
-  const ContactTimeline::Swing* const waiting = walk.swing(1, late->land);
+  const ContactTimeline::Swing* const waiting = walk.swing(1, late->land + 0.05);
   ASSERT_NE(waiting, nullptr);
   EXPECT_NEAR(waiting->land - waiting->lift, pattern.swing(), 1e-9);
   EXPECT_NEAR(waiting->planned, waiting->land, 1e-9) << "is not late itself";
@@ -147,7 +185,7 @@ TEST(ContactTimeline, AFootOfAWalkWaitsUntilTheOneBeforeHasLanded) {
 }
 
 TEST(ContactTimeline, TheLastFeetOfATrotDoNotWaitEither) {
-  for (const SteppingPattern& next : {SteppingPattern{}, SteppingPattern{{{0}, {1}, {2}, {3}}, 0.8, 0.77}}) {
+  for (const SteppingPattern& next : {SteppingPattern{}, kWalk}) {
     ContactTimeline timeline(4, 0.0);
     timeline.follow(kTrot);
     timeline.extend(0.0, 0.4);
