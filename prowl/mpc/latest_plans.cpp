@@ -31,10 +31,11 @@ void LatestPlans::drop_latest() { act_from(kNever); }
 
 /// Before any has begun, the one that begins first.
 const MpcPlan& LatestPlans::acting(double t) const {
-  const auto has_begun = [t](const Kept& kept) { return t >= std::max(kept.plan.start(), kept.ready) - kTimeRounding; };
+  const auto begin = [](const Kept& kept) { return std::max(kept.plan.start(), kept.ready); };
+  const auto has_begun = [&](const Kept& kept) { return t >= begin(kept) - kTimeRounding; };
   const auto newest = std::ranges::find_if(kept_, has_begun);
   if (newest != kept_.end()) return newest->plan;
-  return std::ranges::min_element(kept_, {}, [](const Kept& kept) { return kept.plan.start(); })->plan;
+  return std::ranges::min_element(kept_, {}, begin)->plan;
 }
 
 bool LatestPlans::torque(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Eigen::VectorXd& tau) const {

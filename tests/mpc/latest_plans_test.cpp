@@ -55,6 +55,15 @@ TEST(LatestPlans, ADroppedPlanNeverActs) {
   EXPECT_EQ(two.torque(0.06), 3.0);
 }
 
+/// As after the construction of a controller, whose first plans begin all at once.
+TEST(LatestPlans, ADroppedPlanDoesNotActBeforeItsStartEither) {
+  Plans all;
+  for (int k = 0; k <= LatestPlans::kLongestDelay; ++k) all.add(0.05, 2.0);
+  all.add(0.05, 3.0);
+  all.plans.drop_latest();
+  EXPECT_EQ(all.torque(0.04), 2.0);
+}
+
 TEST(LatestPlans, TheOneBeforeManyDroppedPlansGoesOn) {
   Plans many;
   for (int k = 1; k < 3 * LatestPlans::kLongestDelay; ++k) {
