@@ -32,6 +32,10 @@ OnlineController::OnlineController(const RobotModel& robot, double delay, const 
       q_(q),
       v_(VectorXd::Zero(robot.nv())) {}
 
+void OnlineController::feel_contacts(const std::vector<bool>& touches, double t) {
+  if (std::isfinite(t)) timeline_.feel(touches, t, delay_);
+}
+
 bool OnlineController::prepare(double t) {
   ++counters_.updates;
   if (!std::isfinite(t)) return refuse();

@@ -21,7 +21,7 @@ struct MpcCounters {
   long damped = 0;       ///< torques after the end of the last plan: joints are damped
 };
 
-/// Plans while its robot moves. update() plans, torque() gives the torques of the latest plan with its gains. How a
+/// Plans while its robot moves. update() plans, torque() gives the torques of the plan that acts, with its gains. How a
 /// motion is found is left to derived classes; commands, contacts, delay and choice of the plan that acts are here.
 class OnlineController {
  public:
@@ -42,8 +42,8 @@ class OnlineController {
   /// Returns the command that is followed: within the speeds that the legs allow.
   MpcCommand command(const MpcCommand& command) { return lead_.command(command); }
   /// Which feet touch the ground (one flag a foot), as measured at time t [s]. A foot that touches in the second half
-  /// of its swing has landed.
-  void feel_contacts(const std::vector<bool>& touches, double t) { timeline_.feel(touches, t, delay_); }
+  /// of its swing has landed. Ignored if t is not finite.
+  void feel_contacts(const std::vector<bool>& touches, double t);
 
   /// Plans from the state (q, v) measured at time t [s]. False if there is no new plan: the last one goes on. So it
   /// does after values that are not finite, or that no robot reaches.

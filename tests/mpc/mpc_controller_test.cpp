@@ -178,6 +178,20 @@ TEST(MpcController, RecoversFromStatesAndTimesThatNoRobotReaches) {
   EXPECT_EQ(failures_of_good_states(), 0);
 }
 
+TEST(MpcController, FeelsNothingAtTimesThatAreNone) {
+  Standing standing(test::hyq_description(), {.delay = 0.012});
+  standing.follow("trot");
+  standing.mpc.update(standing.q, standing.v, 0.0);
+  const std::vector<bool> touches(4, true);
+  for (const double time : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    standing.mpc.feel_contacts(touches, time);
+  for (double t = 0.0; t < 0.6; t += 0.01) {
+    for (int foot = 0; foot < 4; ++foot) {
+      if (const auto* const swing = standing.mpc.timeline().swing(foot, t)) EXPECT_FALSE(swing->has_touched) << t;
+    }
+  }
+}
+
 TEST(MpcController, BeginsAnewAfterALongPause) {
   Standing standing;
   standing.trot();
@@ -236,10 +250,11 @@ TEST_P(AllocatesNothing, OnceItRuns) {
   standing.follow("walk");
   follow_plan(standing, 0.0, 2.0);  // all sets of contacts of the gait have been
   VectorXd tau(standing.robot.nu());
-  const std::vector<bool> touches(standing.mpc.feet().size(), false);
+  std::vector<bool> touches(standing.mpc.feet().size());
   long allocated = 0;
   for (double t = 2.0; t < 3.0; t += 0.01) {
     standing.mpc.latest().state(t, standing.q, standing.v);
+    touches.assign(touches.size(), t < 2.3);  // then all are lost
     const long before = test::allocations;
     standing.mpc.feel_contacts(touches, t);
     standing.mpc.update(standing.q, standing.v, t);
