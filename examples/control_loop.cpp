@@ -9,6 +9,7 @@
 #include <prowl/mpc/stepping_patterns.hpp>
 #include <prowl/simulation/physics.hpp>
 #include <prowl/task_file/robot_file.hpp>
+#include <stdexcept>
 #include <thread>
 
 using namespace std::chrono_literals;
@@ -21,6 +22,7 @@ struct Measured {
 };
 
 int main(int count, char** arguments) try {
+  if (count < 2) throw std::invalid_argument("usage: control_loop ROBOT_FILE [PACKAGES]");
   prowl::PackageSearch packages;
   if (count > 2) packages.folders = {arguments[2]};
   const prowl::RobotModel model = prowl::load_robot(prowl::read_text_file(arguments[1]), packages);
@@ -32,6 +34,9 @@ int main(int count, char** arguments) try {
   controller.follow(prowl::stepping_pattern(model, controller.feet(), standing.z(), "trot"));
   controller.command({.forward = 0.3});
   prowl::PlanExecutor executor(model, controller.latest());
+
+  prowl::Physics robot(model, {prowl::Surface{.name = "ground", .friction = 0.6}}, {.step = 1e-3});
+  robot.set_state(now.q, now.v);
 
   std::mutex lock;  // of now
   std::atomic<bool> stops = false;
@@ -47,16 +52,13 @@ int main(int count, char** arguments) try {
     }
   });
 
-  prowl::Physics robot(model, {prowl::Surface{.name = "ground", .friction = 0.6}}, {.step = 1e-3});
-  robot.set_state(now.q, now.v);
   const double least_load = 0.05 * model.weight() / 4.0;  // of a switch that closes
   Eigen::VectorXd tau(model.nu());
   const auto began = std::chrono::steady_clock::now();
   for (int tick = 0; tick < 5000; ++tick) {
     const double t = 1e-3 * tick;
     std::this_thread::sleep_until(began + std::chrono::duration<double>(t));
-    {
-      const std::lock_guard guard(lock);
+    if (const std::unique_lock guard(lock, std::try_to_lock); guard) {
       now.t = t;
       now.q = robot.q();
       now.v = robot.v();

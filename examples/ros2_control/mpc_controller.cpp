@@ -69,6 +69,7 @@ class MpcController : public controller_interface::ControllerInterface {
     began_.reset();
     read(0.0, seen_);
     measured_ = seen_;
+    wanted_ = {};
     prowl::MpcOptions options;
     options.delay = kDelay;
     mpc_.emplace(*robot_, options, seen_.q, seen_.v, 0.0);
