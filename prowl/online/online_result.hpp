@@ -41,12 +41,12 @@ struct OnlineResult {
   double largest_torque_share = 0.0;  ///< of the limit [-]; infinite if a joint is faster than its limits allow
   long control_steps = 0;
   long steps_beyond_limits = 0;      ///< of these: commanded torques more than 1 % beyond a limit at the true state
-  ForceCount undisturbed, kicked;    ///< plans made outside, and within 0.5 s of a push
+  ForceCount undisturbed, kicked;    ///< plans made otherwise, and until 0.5 s after a push
   std::vector<std::string> touches;  ///< of anything but feet on the ground, each once
   MpcCounters counters;
   std::vector<double> times;      ///< computing time of each plan, CPU time of the thread [s]
   std::vector<double> feedbacks;  ///< part of these after the state was measured [s]
-  std::vector<double> walls;      ///< the same in wall-clock time [s]
+  std::vector<double> walls;      ///< of each plan, in wall-clock time [s]
   long dropped = 0;               ///< plans that were late and lost
   std::vector<OnlineSample> samples;
 };
