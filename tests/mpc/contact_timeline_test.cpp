@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "prowl/error.hpp"
 
 namespace prowl {
