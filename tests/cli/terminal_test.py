@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import termios
+import threading
 import unittest
 
 PROWL, PACKAGE_DIR = sys.argv[1:3]
@@ -40,18 +41,16 @@ class Terminal:
             stdout=theirs,
             stderr=theirs if errors else subprocess.DEVNULL,
         )
-        os.close(theirs)
+        # The last lines can be lost when all writers close: a mark after them says that all are read.
+        end = threading.Thread(target=lambda: (process.wait(), os.write(theirs, b"\0")))
+        end.start()
         text = b""
-        while True:
-            try:
-                part = os.read(ours, 65536)
-            except OSError:  # EIO: nobody has it open any more
-                break
-            if not part:
-                break
-            text += part
+        while not text.endswith(b"\0"):
+            text += os.read(ours, 65536)
+        end.join()
+        os.close(theirs)
         os.close(ours)
-        return process.wait(), text.decode().replace("\r\n", "\n")
+        return process.returncode, text[:-1].decode().replace("\r\n", "\n")
 
 
 class TerminalTest(unittest.TestCase):
