@@ -6,7 +6,7 @@
 
 namespace prowl {
 
-/// Steps of a horizon: they grow from its start, and no lift-off or landing is inside one.
+/// Steps of a horizon, which grow from its start. Nodes are at lift-offs and landings; close ones share a node.
 class HorizonGrid {
  public:
   /// `steps` >= 1 that grow by one factor from `first` to a sum of `length` [s]; equal ones if `first` is too long.

@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// Steps of an interior-point method on a HorizonProgram, each in two parts: all that the measured state does not
-/// change, and the rest. A step solves the quadratic program of one linearisation, twice:
+/// Real-time sequential quadratic programming on a HorizonProgram. One linearisation gives one quadratic program, which
+/// an interior-point method solves twice:
 ///
 ///   prepare()  from the state that the variables predict. The first iteration begins with the previous active
 ///              set; if it changes, predictor-corrector iterations follow.

@@ -14,16 +14,18 @@ namespace prowl {
 /// The second term is limited to a share of each joint's torque limit: gains are valid for one active set. Far from the
 /// plan, with another active set, they may be ten times too large, and topple a robot in 10 ms.
 /// x (-) x* is (base displacement, world [m]; rotation vector from R* to R [rad]; joints; velocities, as RobotModel).
-/// No function allocates but the constructor.
+/// A Tracker has gains for x* (-) x instead: they have the other sign.
+/// No function allocates but the constructor. They use work space of the plan: one thread at a time.
 class MpcPlan {
  public:
   struct Step {
     double start = 0.0, length = 0.0;  ///< [s]
     unsigned standing = 0;             ///< bit f: foot f stands
-    Eigen::VectorXd q, v;              ///< at the start
-    Eigen::VectorXd a, tau;            ///< constant over the step
+    Eigen::VectorXd q, v;              ///< at the start, as RobotModel
+    Eigen::VectorXd a;                 ///< constant over the step [m/s^2, rad/s^2], coordinates of v
+    Eigen::VectorXd tau;               ///< constant over the step, joint torques [N m]
     Eigen::VectorXd force;             ///< 3 per contact of the robot, world frame, at this plan's linearisation [N]
-    Eigen::MatrixXd gain;              ///< K, nu x 2 nv
+    Eigen::MatrixXd gain;              ///< K, nu x 2 nv [N m per unit of x (-) x*]
   };
 
   static constexpr double kMostFeedback = 0.2;
