@@ -18,9 +18,6 @@ constexpr double kSoon = 5e-3;
 constexpr double kSameTime = 1e-6;        ///< of a landing and a node of a horizon that ends there [s]
 constexpr double kLongestStride = 5.0;    // [s]
 constexpr double kShortestStance = 0.02;  // between two swings of a foot [s]
-/// A foot that waits for a late landing stays so long after it: longer than the plan acts that expects this landing,
-/// which would unload it else [s].
-constexpr double kStay = 0.02;
 
 }  // namespace
 
@@ -138,7 +135,8 @@ bool ContactTimeline::keeps_three_feet() const {
 }
 
 /// A robot on two feet of a walk tips over. A foot that has waited lifts off `soon` [s] after t at the earliest, as
-/// the plan that acts until then has it on the ground. Its own lost contact does not delay it.
+/// the plan that acts until then has it on the ground. Its own lost contact does not delay it. Longer waits are worse:
+/// with 20 ms more, twice as many plans of Go2 fail when it walks with kicks of 0.7 m/s.
 void ContactTimeline::await_landings(double t, double soon) {
   waiting_.clear();
   for (std::size_t foot = 0; foot < swings_.size(); ++foot) {
@@ -153,8 +151,7 @@ void ContactTimeline::await_landings(double t, double soon) {
       if (f == foot) continue;
       for (const Swing& other : swings_[f]) {
         const double first_landing = other.first_lift + (other.planned - other.lift);
-        const bool is_late = !other.has_touched && other.planned <= t;
-        if (first_landing < swing->first_lift + kSameTime) lift = std::max(lift, other.land + (is_late ? kStay : 0.0));
+        if (first_landing < swing->first_lift + kSameTime) lift = std::max(lift, other.land);
       }
     }
     const double duration = swing->planned - swing->lift;
