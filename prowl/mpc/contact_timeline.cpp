@@ -22,12 +22,9 @@ constexpr double kShortestStance = 0.02;  // between two swings of a foot [s]
 }  // namespace
 
 ContactTimeline::ContactTimeline(int num_feet, double start)
-    : next_lift_(start),
-      felt_(static_cast<std::size_t>(num_feet), start),
-      touches_(felt_.size(), true),
-      swings_(felt_.size()) {
-  for (std::vector<Swing>& swings : swings_) swings.reserve(kMostSwings);
-  waiting_.reserve(kMostSwings * swings_.size());
+    : next_lift_(start), feet_(static_cast<std::size_t>(num_feet), Foot{.felt = start}) {
+  for (Foot& foot : feet_) foot.swings.reserve(kMostSwings);
+  waiting_.reserve(kMostSwings * feet_.size());
 }
 
 void ContactTimeline::follow(const SteppingPattern& pattern) {
@@ -46,8 +43,8 @@ void ContactTimeline::follow(const SteppingPattern& pattern) {
 }
 
 void ContactTimeline::extend(double now, double until) {
-  for (std::vector<Swing>& swings : swings_) {
-    while (!swings.empty() && swings.front().land < now - kRemembered) swings.erase(swings.begin());
+  for (Foot& foot : feet_) {
+    while (!foot.swings.empty() && foot.swings.front().land < now - kRemembered) foot.swings.erase(foot.swings.begin());
   }
   if (pattern_.stands()) {
     next_lift_ = std::max(next_lift_, until);
@@ -58,7 +55,7 @@ void ContactTimeline::extend(double now, double until) {
   const bool waits = keeps_three_feet();
   while (next_lift_ < until) {
     for (const int foot : pattern_.groups[next_group_]) {
-      std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];
+      std::vector<Swing>& swings = of(foot).swings;
       const double lift = swings.empty() ? next_lift_ : std::max(next_lift_, swings.back().land + kShortestStance);
       if (swings.size() < kMostSwings)
         swings.push_back({lift, lift + pattern_.swing(), lift + pattern_.swing(), lift, waits});
@@ -69,7 +66,7 @@ void ContactTimeline::extend(double now, double until) {
 }
 
 const ContactTimeline::Swing* ContactTimeline::swing(int foot, double t) const {
-  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+  for (const Swing& swing : of(foot).swings) {
     if (swing.lift <= t && t < swing.land) return &swing;
   }
   return nullptr;
@@ -85,15 +82,15 @@ unsigned ContactTimeline::standing(double t) const {
 
 const ContactTimeline::Swing* ContactTimeline::unfelt(int foot, double t) const {
   const Swing* latest = nullptr;
-  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+  for (const Swing& swing : of(foot).swings) {
     if (swing.land <= t) latest = &swing;
   }
   return latest && !latest->has_touched && t - latest->land <= kLandingTime ? latest : nullptr;
 }
 
 void ContactTimeline::add_switches(double from, double to, std::vector<double>& switches) const {
-  for (const std::vector<Swing>& swings : swings_) {
-    for (const Swing& swing : swings) {
+  for (const Foot& foot : feet_) {
+    for (const Swing& swing : foot.swings) {
       for (const double t : {swing.lift, swing.land}) {
         if (t > from && t < to) switches.push_back(t);
       }
@@ -102,11 +99,11 @@ void ContactTimeline::add_switches(double from, double to, std::vector<double>& 
 }
 
 void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
-  std::vector<Swing>& swings = swings_[static_cast<std::size_t>(foot)];
+  std::vector<Swing>& swings = of(foot).swings;
   const auto next = std::ranges::find_if(swings, [t](const Swing& swing) { return swing.lift > t; });
   const bool lifts_soon = next != swings.end() && next->lift < t + soon;
-  double& felt = felt_[static_cast<std::size_t>(foot)];
-  touches_[static_cast<std::size_t>(foot)] = touches;
+  double& felt = of(foot).felt;
+  of(foot).touches = touches;
   if (touches) felt = t;
   if (next == swings.begin() || std::prev(next)->has_touched) {
     if (t - felt > kLost && !lifts_soon && swings.size() < kMostSwings)
@@ -130,7 +127,7 @@ void ContactTimeline::feel(const std::vector<bool>& touches, double t, double de
 /// If its groups swing one after the other.
 bool ContactTimeline::keeps_three_feet() const {
   constexpr std::size_t kSupport = 3;
-  const auto stands = [this](const std::vector<int>& group) { return swings_.size() >= group.size() + kSupport; };
+  const auto stands = [this](const std::vector<int>& group) { return feet_.size() >= group.size() + kSupport; };
   return std::ranges::all_of(pattern_.groups, stands);
 }
 
@@ -139,17 +136,17 @@ bool ContactTimeline::keeps_three_feet() const {
 /// with 20 ms more, twice as many plans of Go2 fail when it walks with kicks of 0.7 m/s.
 void ContactTimeline::await_landings(double t, double soon) {
   waiting_.clear();
-  for (std::size_t foot = 0; foot < swings_.size(); ++foot) {
-    for (Swing& swing : swings_[foot]) {
-      if (swing.waits && swing.lift > t) waiting_.push_back({foot, &swing});
+  for (Foot& foot : feet_) {
+    for (Swing& swing : foot.swings) {
+      if (swing.waits && swing.lift > t) waiting_.push_back({&foot, &swing});
     }
   }
   std::ranges::sort(waiting_, {}, [](const Waiting& waiting) { return waiting.swing->first_lift; });
   for (const auto& [foot, swing] : waiting_) {
     double lift = std::max(swing->first_lift, std::min(swing->lift, t + soon));
-    for (std::size_t f = 0; f < swings_.size(); ++f) {
-      if (f == foot) continue;
-      for (const Swing& other : swings_[f]) {
+    for (const Foot& other_foot : feet_) {
+      if (&other_foot == foot) continue;
+      for (const Swing& other : other_foot.swings) {
         const double first_landing = other.first_lift + (other.planned - other.lift);
         if (first_landing < swing->first_lift + kSameTime) lift = std::max(lift, other.land);
       }
@@ -161,7 +158,7 @@ void ContactTimeline::await_landings(double t, double soon) {
 }
 
 double ContactTimeline::lateness(int foot, double landing, double t) const {
-  for (const Swing& swing : swings_[static_cast<std::size_t>(foot)]) {
+  for (const Swing& swing : of(foot).swings) {
     if (std::abs(swing.land - landing) < kSameTime) return swing.has_touched ? 0.0 : std::max(0.0, t - swing.planned);
   }
   return 0.0;

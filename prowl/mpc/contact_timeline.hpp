@@ -35,13 +35,13 @@ class ContactTimeline {
   /// Adds the swings that begin before `until` [s], and forgets those that ended long before `now` [s].
   void extend(double now, double until);
 
-  int num_feet() const { return static_cast<int>(swings_.size()); }
+  int num_feet() const { return static_cast<int>(feet_.size()); }
   /// The swing at time t [s], or nullptr: the foot stands. A foot stands at the moment of its landing.
   const Swing* swing(int foot, double t) const;
   /// Feet that stand at time t [s]. Bit f: foot f.
   unsigned standing(double t) const;
   /// If a foot touched the ground when it was felt last.
-  bool touches(int foot) const { return touches_[static_cast<std::size_t>(foot)]; }
+  bool touches(int foot) const { return of(foot).touches; }
   /// The swing that should have ended at most kLandingTime before t [s], without a touch felt since; or nullptr.
   const Swing* unfelt(int foot, double t) const;
   /// Appends lift-offs and landings between both times [s], unordered.
@@ -65,20 +65,25 @@ class ContactTimeline {
   static constexpr double kLost = 0.03;
 
  private:
+  struct Foot {
+    double felt;                     ///< when it touched last [s]
+    bool touches = true;             ///< if it did so when it was felt last
+    std::vector<Swing> swings = {};  ///< in the order of time
+  };
   struct Waiting {
-    std::size_t foot;
+    const Foot* foot;
     Swing* swing;
   };
 
+  Foot& of(int foot) { return feet_[static_cast<std::size_t>(foot)]; }
+  const Foot& of(int foot) const { return feet_[static_cast<std::size_t>(foot)]; }
   bool keeps_three_feet() const;
   void await_landings(double t, double soon);
 
   SteppingPattern pattern_;
   std::size_t next_group_ = 0;
   double next_lift_;
-  std::vector<double> felt_;   ///< when each foot touched last [s]
-  std::vector<bool> touches_;  ///< if each foot did so when it was felt last
-  std::vector<std::vector<Swing>> swings_;
+  std::vector<Foot> feet_;
   std::vector<Waiting> waiting_;  ///< work space: swings that have not begun, in the order of their groups
 };
 
