@@ -32,6 +32,7 @@ class MpcPlan {
   /// `most_feedback`: that share. The robot must outlive the plan.
   MpcPlan(const RobotModel& robot, int steps, double most_feedback = kMostFeedback);
 
+  double most_feedback() const { return most_feedback_; }
   std::vector<Step>& steps() { return steps_; }
   const std::vector<Step>& steps() const { return steps_; }
   double start() const { return steps_.front().start; }

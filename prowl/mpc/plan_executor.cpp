@@ -5,7 +5,9 @@
 namespace prowl {
 
 PlanExecutor::PlanExecutor(const RobotModel& robot, const MpcPlan& first)
-    : robot_(robot), acting_(robot_, static_cast<int>(first.steps().size())), pending_(kMostPending, acting_) {
+    : robot_(robot),
+      acting_(robot_, static_cast<int>(first.steps().size()), first.most_feedback()),
+      pending_(kMostPending, acting_) {
   acting_.steps() = first.steps();
 }
 

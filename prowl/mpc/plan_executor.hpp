@@ -14,7 +14,7 @@ class PlanExecutor {
   /// Plans that may wait for their start.
   static constexpr std::size_t kMostPending = LatestPlans::kLongestDelay + 1;
 
-  /// Begins with a plan, e.g. MpcController::latest() after its construction.
+  /// Begins with a plan, e.g. MpcController::latest() after its construction. All have its share of feedback.
   PlanExecutor(const RobotModel& robot, const MpcPlan& first);
 
   /// For the planning thread: `plan` acts from its start on, and replaces those that would begin later.

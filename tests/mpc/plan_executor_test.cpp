@@ -64,6 +64,21 @@ TEST(PlanExecutor, DampsJointsAfterTheEndOfAPlan) {
   EXPECT_EQ(one.torque(0.5), 0.0);
 }
 
+TEST(PlanExecutor, FeedbackIsThatOfItsPlans) {
+  Executed one;
+  for (const double most_feedback : {0.05, 0.5}) {
+    MpcPlan plan(one.robot, 2, most_feedback);
+    for (MpcPlan::Step& step : plan.steps()) step.gain.setConstant(1e4);
+    PlanExecutor executor(one.robot, plan);
+    VectorXd expected;
+    one.q(8) = one.robot.nominal_configuration()(8) + 0.1;
+    plan.torque(0.0, one.q, one.v, expected);
+    executor.torque(0.0, one.q, one.v, one.tau);
+    EXPECT_EQ(one.tau, expected);
+    EXPECT_NEAR(one.tau(0), most_feedback * one.robot.torque_limit()(0), 1e-9);
+  }
+}
+
 TEST(PlanExecutor, NeverMixesTwoPlans) {
   Executed one;
   std::atomic<bool> done = false;
