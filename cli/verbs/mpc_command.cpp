@@ -148,7 +148,8 @@ int run_mpc(const MpcArguments& arguments) {
 void add_world_options(CLI::App& verb, MpcArguments& arguments) {
   SimulationOptions& simulation = arguments.options.simulation;
   const std::vector<CLI::Option*> all = {
-      verb.add_option("--push", arguments.push, "Push the base for 0.1 s: time [s] and impulse [N s], world axes; repeatable")
+      verb.add_option("--push", arguments.push,
+                      "Push the base for 0.1 s: time [s] and impulse [N s], world axes; repeatable")
           ->type_name("T IX IY IZ"),
       verb.add_option(
               "--kicks", arguments.kicks,
