@@ -24,6 +24,8 @@ const MpcOptions& checked(const MpcOptions& options) {
                "more than 0, at most 1 s");
   check_option(options.least_horizon > 0.0 && options.least_horizon <= 10.0, "least_horizon", options.least_horizon,
                "more than 0, at most 10 s");
+  check_option(options.clearance > 0.0 && options.clearance <= 1.0, "clearance", options.clearance,
+               "more than 0, at most 1");
   check_option(options.delay >= 0.0 && options.delay <= kMostDelay, "delay", options.delay, "0 to 0.5 s");
   check_option(options.iterations >= 1, "iterations", options.iterations, "1 or more");
   check_option(options.feedback_iterations >= 1, "feedback_iterations", options.feedback_iterations, "1 or more");

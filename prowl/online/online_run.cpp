@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -53,11 +54,17 @@ void check(const OnlineOptions& options) {
                "0 to 0.05 s");
   check_option(options.budget + options.simulation.delay <= LatestPlans::kLongestDelay * options.period, "budget",
                options.budget, "at most seven periods, together with the delay");
+  double last = -std::numeric_limits<double>::infinity();
+  for (const TimedCommand& timed : options.commands) {
+    check_option(timed.time >= last, "commands", timed.time, "times in ascending order");
+    last = timed.time;
+  }
 }
 
 void check(const std::vector<Push>& pushes) {
   for (const Push& push : pushes) {
     check_option(push.time >= 0.0 && std::isfinite(push.time), "push", push.time, "a time of 0 s or later");
+    check_option(push.duration > 0.0 && std::isfinite(push.duration), "push", push.duration, "a duration over 0 s");
     for (const double part : push.impulse) check_option(std::isfinite(part), "push", part, "finite impulses");
   }
 }

@@ -116,6 +116,8 @@ TEST(MpcController, RefusesOptionsOutOfRange) {
     EXPECT_THROW(MpcController(standing.robot, options, standing.q, standing.v, 0.0), InputError);
   };
   refuses({.steps = 1});
+  refuses({.clearance = 0.0});
+  refuses({.clearance = std::numeric_limits<double>::infinity()});
   refuses({.delay = 1e6});
   refuses({.delay = std::numeric_limits<double>::quiet_NaN()});
   refuses({.iterations = 0});

@@ -118,10 +118,16 @@ TEST(OnlineRun, RefusesOptionsOutOfRange) {
   options.simulation.delay = 0.03;
   EXPECT_THROW(run_online(robot, options), InputError) << "more than the kept plans cover";
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Push& push : {Push{{0.0, nan, 0.0}, 0.1}, Push{{0.0, 1.0, 0.0}, nan}, Push{{0.0, 1.0, 0.0}, -1.0}}) {
+  for (const Push& push : {Push{{0.0, nan, 0.0}, 0.1}, Push{{0.0, 1.0, 0.0}, nan}, Push{{0.0, 1.0, 0.0}, -1.0},
+                           Push{{0.0, 1.0, 0.0}, 0.1, nan}, Push{{0.0, 1.0, 0.0}, 0.1, 0.0}}) {
     options = {};
     options.simulation.pushes = {push};
     EXPECT_THROW(run_online(robot, options), InputError);
+  }
+  for (const double second : {0.5, nan}) {
+    options = {};
+    options.commands = {{.time = 1.0, .command = {}}, {.time = second, .command = {}}};
+    EXPECT_THROW(run_online(robot, options), InputError) << "commands are followed in order of time";
   }
   options = {};
   options.duration = 3.0;
