@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 /// Of all runs of a row.
 struct RowSums {
-  int runs = 0, successes = 0;
+  int runs = 0, successes = 0, falls = 0;
   double turn = 0.0, p99 = 0.0, longest = 0.0, feedback = 0.0;
   std::vector<double> medians, velocities;
   long plans = 0, outside = 0, kicked_plans = 0, kicked_outside = 0, steps = 0, beyond = 0, dropped = 0;
@@ -22,6 +22,7 @@ struct RowSums {
   void add(const Json& run) {
     ++runs;
     if (run["success"]) ++successes;
+    if (run["end"] != "finished") ++falls;
     velocities.push_back(run["velocity_error_mps"]);
     turn = std::max<double>(turn, run["turn_error_radps"]);
     const Json& ticks = run["plan_ms"];
@@ -54,9 +55,9 @@ std::string percent(long part, long all) {
 std::string table_row(const BenchmarkRow& row, const RowSums& sums) {
   const SuccessRate rate = success_rate(sums.successes, sums.runs);
   return fmt::format(
-      "| {} | {} | {} of {} | {:.0f} to {:.0f} % | {} | {:.3f} | {:.3f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | "
+      "| {} | {} | {} of {} | {:.0f} to {:.0f} % | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | "
       "{} | {} | {} | {} |\n",
-      row.name, row.meaning, sums.successes, sums.runs, 100.0 * rate.lower, 100.0 * rate.upper,
+      row.name, row.meaning, sums.successes, sums.runs, 100.0 * rate.lower, 100.0 * rate.upper, sums.falls,
       row.pendulum > 0.0 ? fmt::format("{:.2f}", row.pendulum) : "", median(sums.velocities),
       *std::ranges::max_element(sums.velocities), sums.turn, median(sums.medians), sums.p99, sums.longest,
       sums.feedback, percent(sums.outside, sums.plans), percent(sums.kicked_outside, sums.kicked_plans),
@@ -71,10 +72,10 @@ std::string benchmark_table(const RobotModel& robot, const std::vector<Benchmark
       "{}. Errors from the smoothed command: RMS of velocity [m/s] and of turn rate [rad/s]. CPU times of plans [ms]. "
       "Outside: plans with forces outside their cones by more than 1 % of the weight. Beyond: control steps whose "
       "commanded torques are more than 1 % beyond a limit at the true state.\n\n"
-      "| row | meaning | success | 95 % interval | pendulum [m/s] | velocity error, median | worst | turn error, worst "
+      "| row | meaning | success | 95 % interval | falls | pendulum [m/s] | velocity error, median | worst | turn error, worst "
       "| "
       "p50, median | p99, worst | longest | p99 of feedback | outside | within 0.5 s of a kick | beyond | dropped |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       robot.name());
   for (const BenchmarkRow& row : rows) {
     RowSums sums;
