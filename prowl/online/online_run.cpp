@@ -61,14 +61,6 @@ void check(const OnlineOptions& options) {
   }
 }
 
-void check(const std::vector<Push>& pushes) {
-  for (const Push& push : pushes) {
-    check_option(push.time >= 0.0 && std::isfinite(push.time), "push", push.time, "a time of 0 s or later");
-    check_option(push.duration > 0.0 && std::isfinite(push.duration), "push", push.duration, "a duration over 0 s");
-    for (const double part : push.impulse) check_option(std::isfinite(part), "push", part, "finite impulses");
-  }
-}
-
 /// A posture on level ground, turned about the origin with the ground.
 VectorXd on_ground(VectorXd q, const Surface& ground) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ground.normal);
@@ -327,7 +319,7 @@ Surface ground_of(const OnlineOptions& options) {
 
 OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options, const OnlineWatcher& watch) {
   check(options);
-  check(options.simulation.pushes);
+  check_pushes(options.simulation.pushes);
   return Run(robot, options)(watch);
 }
 

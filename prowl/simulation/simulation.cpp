@@ -34,12 +34,10 @@ void check(const MotionProblem& problem, const SimulationOptions& options, doubl
   need(options.physics.step >= 1e-5 && options.physics.step <= 1e-2, "step", options.physics.step, "1e-5 to 1e-2 s");
   need(options.physics.mass_scale > 0.0 && std::isfinite(options.physics.mass_scale), "mass scale",
        options.physics.mass_scale, "> 0");
-  for (const Push& push : options.pushes) {
+  for (const Push& push : options.pushes)
     need(push.time >= 0.0 && push.time <= end, "push time", push.time,
          fmt::format("0 to {:g} s, the end of the simulation", end));
-    need(push.duration > 0.0 && std::isfinite(push.duration), "push duration", push.duration, "a finite number > 0 s");
-    need(push.impulse.allFinite(), "push impulse", push.impulse.sum(), "finite numbers");
-  }
+  check_pushes(options.pushes);
   const PhysicsOptions& physics = options.physics;
   const auto bodies = static_cast<std::size_t>(problem.robot.nu()) + 1;
   need(physics.body_scales.empty() || physics.body_scales.size() == bodies, "body scales",

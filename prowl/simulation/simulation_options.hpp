@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "prowl/simulation/physics.hpp"
+#include "prowl/simulation/push.hpp"
 #include "prowl/simulation/start_state.hpp"
 
 namespace prowl {
@@ -19,22 +20,6 @@ struct SensorNoise {
   double gyro = 2e-3;           ///< [rad/s]
   double accelerometer = 0.05;  ///< [m/s^2]
 };
-
-/// A constant force on the base's centre of mass during `duration`.
-struct Push {
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< world frame [N s]
-  double time = 0.0;                                  ///< start [s]
-  double duration = 0.1;                              ///< [s]
-};
-
-/// Force of all pushes at time t [s], world frame [N].
-inline Eigen::Vector3d push_at(const std::vector<Push>& pushes, double t) {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  for (const Push& push : pushes) {
-    if (t >= push.time && t < push.time + push.duration) force += push.impulse / push.duration;
-  }
-  return force;
-}
 
 /// What a simulation has to keep to succeed (docs/simulation.md). `[simulation]` of a task file can only ask for more.
 struct SuccessCriteria {
