@@ -99,15 +99,15 @@ void ContactTimeline::add_switches(double from, double to, std::vector<double>& 
 }
 
 void ContactTimeline::feel(int foot, bool touches, double t, double soon) {
-  std::vector<Swing>& swings = of(foot).swings;
+  Foot& it = of(foot);
+  std::vector<Swing>& swings = it.swings;
   const auto next = std::ranges::find_if(swings, [t](const Swing& swing) { return swing.lift > t; });
   const bool lifts_soon = next != swings.end() && next->lift < t + soon;
-  double& felt = of(foot).felt;
-  of(foot).touches = touches;
-  if (touches) felt = t;
+  it.touches = touches;
+  if (touches) it.felt = t;
   if (next == swings.begin() || std::prev(next)->has_touched) {
-    if (t - felt > kLost && !lifts_soon && swings.size() < kMostSwings)
-      swings.insert(next, {.lift = felt, .land = t + soon, .planned = t, .first_lift = felt});
+    if (t - it.felt > kLost && !lifts_soon && swings.size() < kMostSwings)
+      swings.insert(next, {.lift = it.felt, .land = t + soon, .planned = t, .first_lift = it.felt});
     return;
   }
   Swing& latest = *std::prev(next);
