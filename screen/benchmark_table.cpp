@@ -56,8 +56,7 @@ std::string table_row(const BenchmarkRow& row, const RowSums& sums) {
   const SuccessRate rate = success_rate(sums.successes, sums.runs);
   return fmt::format(
       "| {} | {} | {} of {} | {:.0f} to {:.0f} % | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | "
-      "{:.1f} | "
-      "{} | {} | {} | {} |\n",
+      "{:.1f} | {} | {} | {} | {} |\n",
       row.name, row.meaning, sums.successes, sums.runs, 100.0 * rate.lower, 100.0 * rate.upper, sums.falls,
       row.pendulum > 0.0 ? fmt::format("{:.2f}", row.pendulum) : "", median(sums.velocities),
       *std::ranges::max_element(sums.velocities), sums.turn, median(sums.medians), sums.p99, sums.longest,
@@ -74,9 +73,8 @@ std::string benchmark_table(const RobotModel& robot, const std::vector<Benchmark
       "Outside: plans with forces outside their cones by more than 1 % of the weight. Beyond: control steps whose "
       "commanded torques are more than 1 % beyond a limit at the true state.\n\n"
       "| row | meaning | success | 95 % interval | falls | pendulum [m/s] | velocity error, median | worst | turn "
-      "error, worst "
-      "| "
-      "p50, median | p99, worst | longest | p99 of feedback | outside | within 0.5 s of a kick | beyond | dropped |\n"
+      "error, worst | p50, median | p99, worst | longest | p99 of feedback | outside | within 0.5 s of a kick | beyond "
+      "| dropped |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       robot.name());
   for (const BenchmarkRow& row : rows) {
