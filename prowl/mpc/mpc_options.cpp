@@ -1,10 +1,8 @@
 #include "prowl/mpc/mpc_options.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "prowl/error.hpp"
+#include "prowl/text/option_check.hpp"
 
 namespace prowl {
 namespace {
@@ -13,10 +11,6 @@ constexpr int kMostSteps = 200;
 constexpr double kMostDelay = 0.5;  ///< [s]
 
 }  // namespace
-
-void check_option(bool is_allowed, const char* name, double value, const std::string& needed) {
-  if (!is_allowed) throw InputError(fmt::format("{}: {:g} is not allowed; need {}", name, value, needed));
-}
 
 const MpcOptions& checked(const MpcOptions& options) {
   check_option(options.steps >= 2 && options.steps <= kMostSteps, "steps", options.steps, "2 to 200");

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "prowl/mpc/mpc_weights.hpp"
 #include "prowl/transcription/node/node_functions.hpp"
 
@@ -21,9 +19,6 @@ struct MpcOptions {
   int feedback_iterations = 3;  ///< and after
   HessianKind hessian = HessianKind::gauss_newton_with_cones;
 };
-
-/// Throws InputError "name: value is not allowed; need ..." unless the value is allowed.
-void check_option(bool is_allowed, const char* name, double value, const std::string& needed);
 
 /// The same options; throws InputError for one out of range.
 const MpcOptions& checked(const MpcOptions& options);

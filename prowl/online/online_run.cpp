@@ -21,6 +21,7 @@
 #include "prowl/simulation/ground_error.hpp"
 #include "prowl/simulation/onboard.hpp"
 #include "prowl/simulation/sensors.hpp"
+#include "prowl/text/option_check.hpp"
 
 namespace prowl {
 namespace {
@@ -319,7 +320,7 @@ Surface ground_of(const OnlineOptions& options) {
 
 OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options, const OnlineWatcher& watch) {
   check(options);
-  check_pushes(options.simulation.pushes);
+  check_simulation_options(options.simulation, robot.nu());
   return Run(robot, options)(watch);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "prowl/simulation/perturbations.hpp"
+#include "prowl/text/option_check.hpp"
 
 namespace prowl {
 namespace {

@@ -1,21 +1,17 @@
 #include "prowl/simulation/push.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "prowl/error.hpp"
+#include "prowl/text/option_check.hpp"
 
 namespace prowl {
 
 void check_pushes(const std::vector<Push>& pushes) {
-  const auto need = [](bool is_allowed, const char* name, double value, const char* needed) {
-    if (!is_allowed) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, needed));
-  };
   for (const Push& push : pushes) {
-    need(push.time >= 0.0 && std::isfinite(push.time), "push time", push.time, "a finite number >= 0 s");
-    need(push.duration > 0.0 && std::isfinite(push.duration), "push duration", push.duration, "a finite number > 0 s");
-    need(push.impulse.allFinite(), "push impulse", push.impulse.sum(), "finite numbers");
+    check_option(push.time >= 0.0 && std::isfinite(push.time), "push time", push.time, "a finite number >= 0 s");
+    check_option(push.duration > 0.0 && std::isfinite(push.duration), "push duration", push.duration,
+                 "a finite number > 0 s");
+    check_option(push.impulse.allFinite(), "push impulse", push.impulse.sum(), "finite numbers");
   }
 }
 

@@ -13,49 +13,16 @@
 #include "prowl/simulation/onboard.hpp"
 #include "prowl/simulation/perturbations.hpp"
 #include "prowl/simulation/sensors.hpp"
+#include "prowl/text/option_check.hpp"
 
 namespace prowl {
 namespace {
 
 /// Throws InputError for options out of range; `end` of the simulation [s].
 void check(const MotionProblem& problem, const SimulationOptions& options, double end) {
-  const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {
-    if (!ok) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, range));
-  };
-  need(options.control_rate >= 10.0 && options.control_rate <= 1e5, "control rate", options.control_rate,
-       "10 to 1e5 Hz");
-  need(options.delay >= 0.0 && options.delay <= 1.0, "delay", options.delay, "0 to 1 s");
-  need(options.delay + options.unknown_delay >= 0.0 && options.unknown_delay <= 1.0, "unknown delay",
-       options.unknown_delay, "at least minus the known delay, at most 1 s");
-  need(options.bandwidth >= 0.0 && std::isfinite(options.bandwidth), "bandwidth", options.bandwidth, ">= 0 Hz");
-  need(options.noise_scale >= 0.0 && std::isfinite(options.noise_scale), "noise", options.noise_scale, ">= 0");
-  need(options.unknown_noise >= 0.0 && std::isfinite(options.unknown_noise), "unknown noise", options.unknown_noise,
-       ">= 0");
-  need(options.physics.step >= 1e-5 && options.physics.step <= 1e-2, "step", options.physics.step, "1e-5 to 1e-2 s");
-  need(options.physics.mass_scale > 0.0 && std::isfinite(options.physics.mass_scale), "mass scale",
-       options.physics.mass_scale, "> 0");
+  check_simulation_options(options, problem.robot.nu());
   for (const Push& push : options.pushes)
-    need(push.time >= 0.0 && push.time <= end, "push time", push.time,
-         fmt::format("0 to {:g} s, the end of the simulation", end));
-  check_pushes(options.pushes);
-  const PhysicsOptions& physics = options.physics;
-  const auto bodies = static_cast<std::size_t>(problem.robot.nu()) + 1;
-  need(physics.body_scales.empty() || physics.body_scales.size() == bodies, "body scales",
-       static_cast<double>(physics.body_scales.size()), fmt::format("one for each of {} bodies", bodies));
-  for (const double scale : physics.body_scales) need(scale > 0.0 && std::isfinite(scale), "body scale", scale, "> 0");
-  need(physics.base_center.allFinite(), "centre of mass", physics.base_center.sum(), "finite numbers");
-  need(physics.friction_scale >= 0.0 && std::isfinite(physics.friction_scale), "friction scale", physics.friction_scale,
-       ">= 0");
-  need(std::isfinite(options.ground.height) && options.ground.tilt.allFinite(), "ground", options.ground.height,
-       "finite numbers");
-  if (const auto& start = options.start) {
-    const bool fits = start->joints.size() == 0 || start->joints.size() == problem.robot.nu();
-    need(fits, "start error of joints", static_cast<double>(start->joints.size()), "one for each joint");
-    need(start->base.allFinite() && start->twist.allFinite() && start->joints.allFinite(), "start error",
-         start->base.sum(), "finite numbers");
-  }
-  const double friction = options.physics.friction.value_or(1.0);
-  need(friction >= 0.0 && std::isfinite(friction), "friction", friction, ">= 0");
+    check_option(push.time <= end, "push time", push.time, fmt::format("0 to {:g} s, the end of the simulation", end));
 }
 
 constexpr double kLoaded = 0.01;  ///< of the weight: a foot with less may slip

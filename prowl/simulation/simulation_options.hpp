@@ -72,4 +72,7 @@ struct SimulationOptions {
   }
 };
 
+/// Throws InputError for an option out of range; `nu`: number of the robot's joints.
+void check_simulation_options(const SimulationOptions& options, int nu);
+
 }  // namespace prowl

@@ -23,6 +23,7 @@
 #include "prowl/online/random_events.hpp"
 #include "prowl/online/script_file.hpp"
 #include "prowl/simulation/collision_shapes.hpp"
+#include "prowl/text/option_check.hpp"
 #include "pushes.hpp"
 #include "screen/online_summary.hpp"
 #include "signals.hpp"

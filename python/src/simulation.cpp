@@ -86,15 +86,6 @@ std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject
   return std::make_shared<SimulationObject>(std::move(plan), SimulationRecord{std::move(options), std::move(result)});
 }
 
-const char* end_name(const SimulationObject& simulation) {
-  switch (simulation.record.result.end) {
-    case SimulationResult::End::finished: return "finished";
-    case SimulationResult::End::fell: return "fell";
-    case SimulationResult::End::diverged: return "diverged";
-  }
-  return "unknown";
-}
-
 void save_simulation(const SimulationObject& simulation, const std::filesystem::path& directory) {
   const nb::gil_scoped_release others_may_run;
   write_simulation(directory, simulation.plan->record, simulation.record);
@@ -124,7 +115,9 @@ void bind_simulation(nb::module_& module) {
           "True if the judge finds no failure.")
       .def_prop_ro(
           "failures", [=](const SimulationObject& s) { return result(s).failures; }, "Violated criteria, in words.")
-      .def_prop_ro("end", &end_name, "\"finished\", \"fell\" or \"diverged\".")
+      .def_prop_ro(
+          "end", [](const SimulationObject& s) { return to_string(s.record.result.end); },
+          "\"finished\", \"fell\" or \"diverged\".")
       .def_prop_ro(
           "end_time", [=](const SimulationObject& s) { return result(s).end_time; }, "[s]")
       .def_prop_ro(
@@ -182,7 +175,8 @@ void bind_simulation(nb::module_& module) {
           "__len__", [](const SimulationObject& s) { return s.t.size(); }, "Number of samples, S.")
       .def("__repr__", [](const SimulationObject& s) {
         return fmt::format("<prowl.Simulation {}: {}, {} at {:.3g} s>", s.plan->problem().name,
-                           s.record.result.success() ? "success" : "no success", end_name(s), s.record.result.end_time);
+                           s.record.result.success() ? "success" : "no success", to_string(s.record.result.end),
+                           s.record.result.end_time);
       });
   const SimulationOptions defaults;
   module.def(

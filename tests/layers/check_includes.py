@@ -91,6 +91,7 @@ ALLOWED = {
     # Of dynamics nothing: an independent judge. What runs on board the robot, the estimator, may use them.
     "prowl/mjcf": [],
     "prowl/simulation": [
+        "prowl/text",
         "prowl/files",
         "prowl/mjcf",
         "prowl/model",
@@ -115,6 +116,7 @@ ALLOWED = {
     ],
     # Online: a controller, and its robot in MuJoCo.
     "prowl/mpc": [
+        "prowl/text",
         "prowl/model",
         "prowl/dynamics",
         "prowl/motion",
@@ -123,6 +125,7 @@ ALLOWED = {
         "prowl/solvers",
     ],
     "prowl/online": [
+        "prowl/text",
         "prowl/files",
         "prowl/model",
         "prowl/certificate",
