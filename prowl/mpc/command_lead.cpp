@@ -28,14 +28,21 @@ CommandLead::CommandLead(const VectorXd& standing, const VectorXd& q, double t)
     : standing_(standing), led_until_(t), place_(q.head<2>()), heading_(heading(q)) {}
 
 MpcCommand CommandLead::command(const MpcCommand& command) {
+  asked_ = command;
   const double height = standing_.z(), time = std::sqrt(height / RobotModel::kGravity);
-  const double fastest = kMostSpeed * RobotModel::kGravity * time, turn = kMostTurn / time;
+  const double fastest = stands_ ? 0.0 : kMostSpeed * RobotModel::kGravity * time;
+  const double turn = stands_ ? 0.0 : kMostTurn / time;
   const auto within = [](double value, double most) {
     return std::isfinite(value) ? std::clamp(value, -most, most) : 0.0;
   };
   command_ = {within(command.forward, fastest), within(command.left, 0.5 * fastest), within(command.turn, turn),
               within(command.height, kMostHeight * height)};
   return command_;
+}
+
+void CommandLead::stand(bool stands) {
+  stands_ = stands;
+  command(asked_);
 }
 
 void CommandLead::advance(double start) {

@@ -23,8 +23,11 @@ class CommandLead {
   /// `standing` (nq): posture of all references, which must outlive this. At time t [s] the robot is at q, and stays.
   CommandLead(const Eigen::VectorXd& standing, const Eigen::VectorXd& q, double t);
 
-  /// Returns the command that is followed: within the speeds that the legs allow; 0 for a part that is not finite.
+  /// Returns the command that is followed: within the speeds that the legs allow, without velocity while the robot
+  /// stands; 0 for a part that is not finite.
   MpcCommand command(const MpcCommand& command);
+  /// Whether the robot stands, as it does at first. The latest command is followed anew.
+  void stand(bool stands);
   /// Command after smoothing.
   const MpcCommand& followed() const { return smooth_; }
   /// Place (x, y) [m] and heading [rad] to which the commands have led.
@@ -38,7 +41,8 @@ class CommandLead {
 
  private:
   const Eigen::VectorXd& standing_;
-  MpcCommand command_, smooth_;
+  MpcCommand asked_, command_, smooth_;
+  bool stands_ = true;
   double led_until_;       ///< [s]
   Eigen::Vector2d place_;  ///< world [m]
   double heading_;         ///< [rad]

@@ -19,7 +19,11 @@ struct MpcWeights {
   double acceleration = 1e-3;  ///< of base and joints
   double torque = 0.05;
   double force = 0.15;
-  double terminal = 1.0;  ///< factor on those of the state, as a cost of the end, times sqrt(l / g)
+  /// Factor on those of the state, as a cost of the end, times sqrt(l / g). Others were tried for the horizontal motion
+  /// of the base. Survived of 12 runs with kicks of 1.2 m/s every 2 s, HyQ and Go2: this one 12 and 10; the stationary
+  /// Riccati solution of a double integrator 12 and 11; the distance of the capture point, weighted by 5: 12 and 9, and
+  /// by 25: 12 and 9.
+  double terminal = 1.0;
   // Exact penalty of soft limits, per unit: larger than any multiplier of a motion that keeps them.
   double penalty = 30.0;
 };

@@ -32,6 +32,11 @@ OnlineController::OnlineController(const RobotModel& robot, double delay, const 
       q_(q),
       v_(VectorXd::Zero(robot.nv())) {}
 
+void OnlineController::follow(const SteppingPattern& pattern) {
+  timeline_.follow(pattern);
+  lead_.stand(pattern.stands());
+}
+
 void OnlineController::feel_contacts(const std::vector<bool>& touches, double t) {
   if (std::isfinite(t)) timeline_.feel(touches, t, delay_);
 }

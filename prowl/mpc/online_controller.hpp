@@ -38,8 +38,9 @@ class OnlineController {
   const MpcCommand& followed() const { return lead_.followed(); }
 
   /// Takes effect after the swings already scheduled. Throws InputError as ContactTimeline::follow().
-  virtual void follow(const SteppingPattern& pattern) { timeline_.follow(pattern); }
-  /// Returns the command that is followed: within the speeds that the legs allow.
+  virtual void follow(const SteppingPattern& pattern);
+  /// Returns the command that is followed: within the speeds that the legs allow, and without velocity while the
+  /// pattern stands.
   MpcCommand command(const MpcCommand& command) { return lead_.command(command); }
   /// Which feet touch the ground (one flag a foot), as measured at time t [s]. A foot that touches in the second half
   /// of its swing has landed. Ignored if t is not finite.

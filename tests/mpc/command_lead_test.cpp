@@ -28,6 +28,8 @@ struct Led {
   GroundPlane ground{4, 0.8};
   double t = 0.0;
 
+  Led() { lead.stand(false); }
+
   void advance(double duration) {
     for (const double end = t + duration; t < end - 1e-9;) lead.advance(t += kPeriod);
   }
@@ -49,6 +51,23 @@ TEST(CommandLead, ReturnsWhatLegsAllow) {
   // A walk faster than sqrt(g height) would leave the ground.
   EXPECT_LT(most.forward, std::sqrt(RobotModel::kGravity * led.q.z()));
   EXPECT_LT(most.left, most.forward);
+}
+
+TEST(CommandLead, ARobotThatStandsFollowsNoVelocity) {
+  Led led;
+  const MpcCommand asked{0.3, 0.1, 0.2, 0.02};
+  EXPECT_EQ(led.lead.command(asked), asked);
+  led.advance(3.0);
+  led.lead.stand(true);
+  EXPECT_EQ(led.lead.command(asked), MpcCommand({0.0, 0.0, 0.0, 0.02}));
+  led.advance(3.0);
+  const Vector3d place = led.lead.pose();
+  led.advance(1.0);
+  EXPECT_EQ(led.lead.pose(), place);
+  EXPECT_NEAR(led.lead.followed().height, 0.02, 1e-12);
+  led.lead.stand(false);
+  led.advance(3.0);
+  EXPECT_EQ(led.lead.followed(), asked) << "the command is remembered";
 }
 
 /// Acceleration and deceleration are those that friction 0.6 allows, with a reserve.

@@ -225,6 +225,8 @@ TEST(MpcController, KeepsWhatItKnowsOfLimitsWhileStatesAreMissing) {
 
 TEST(MpcController, ClampsCommandsToWhatTheLegsAllow) {
   Standing standing;
+  EXPECT_EQ(standing.mpc.command({.forward = 0.3}), MpcCommand{}) << "it stands";
+  standing.trot();
   MpcCommand command;
   command.forward = 100.0;
   command.turn = -100.0;

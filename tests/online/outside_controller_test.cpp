@@ -58,8 +58,7 @@ TEST(OutsideController, StandsByItsPlanner) {
 TEST(OutsideController, IsToldThatItDidNotFollowItsCommand) {
   Holding hold;
   OnlineOptions options;
-  options.gait = "stand";
-  options.duration = 2.0;
+  options.duration = 2.0;  // of a trot, which the planner does not do
   options.planner = std::ref(hold);
   options.commands = {{.time = 0.0, .command = {.forward = 0.3}}};
   const OnlineResult result = run_online(hold.robot, options);
