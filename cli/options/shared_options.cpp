@@ -139,18 +139,19 @@ CLI::Validator number_in(const NumberRange& range) {
           "NUMBER " + range.limits()};
 }
 
-CLI::Validator whole_number() {
-  return {[](const std::string& text) {
+CLI::Validator whole_number(std::uint64_t lower, std::uint64_t upper) {
+  return {[=](const std::string& text) {
             std::uint64_t number = 0;
             const char* const end = text.data() + text.size();
             const auto [rest, error] = std::from_chars(text.data(), end, number);
-            const bool ok = error == std::errc() && rest == end;
+            const bool ok = error == std::errc() && rest == end && number >= lower && number <= upper;
             return ok ? std::string{}
-                      : fmt::format("{} is not allowed; need a whole number from 0 to {}", text,
-                                    std::numeric_limits<std::uint64_t>::max());
+                      : fmt::format("{} is not allowed; need a whole number from {} to {}", text, lower, upper);
           },
           ""};  // N is in the help already
 }
+
+CLI::Validator port_number() { return whole_number(0, std::numeric_limits<std::uint16_t>::max()); }
 
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status) {
   std::string text = "Examples:\n";

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,7 +43,9 @@ CLI::Validator interval_count();
 
 /// A finite number in that range; CLI11's own checks let NaN through.
 CLI::Validator number_in(const NumberRange& range);
-CLI::Validator whole_number();  ///< of 64 bits; CLI11 would turn -1 and overflows into the largest
+/// A whole number in that range; CLI11 would turn -1 and overflows into the largest.
+CLI::Validator whole_number(std::uint64_t lower = 0, std::uint64_t upper = std::numeric_limits<std::uint64_t>::max());
+CLI::Validator port_number();
 
 /// Ends --help with "Examples:", one per line, and the meaning of the exit status. Tests run every
 /// example.

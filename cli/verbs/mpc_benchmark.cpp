@@ -51,6 +51,7 @@ class Runs {
     runs_.push_back(std::move(one));
     write_file_atomically(file_, text());
   }
+  const Json& all() const { return runs_; }
   std::string text() const { return json_text(runs_); }
 
  private:
@@ -82,17 +83,20 @@ void run_row(const RobotModel& robot, const BenchmarkRow& row, const MpcBenchmar
   }
   if (seeds.empty() || interrupted) return;
   ProgressBar bar(fmt::format("runs of {} ({})", row.name, row.meaning), static_cast<int>(seeds.size()));
+  bar.show(0);
   std::mutex lock;
   int done = 0;
   const auto work = [&](int i) {
     const OnlineOptions options = row.run(robot, seeds[static_cast<std::size_t>(i)]);
     const OnlineResult result = run_online(robot, options, [&](OnlineMoment& at) { at.stops = interrupted; });
-    if (interrupted) return;
+    if (result.end == OnlineResult::End::stopped) return;
     const std::lock_guard guard(lock);
     runs.add(row.name, online_json(robot, options, result));
     bar.show(++done);
   };
   in_parallel(static_cast<int>(seeds.size()), row.is_alone ? 1 : benchmark.jobs, work, &interrupted);
+  if (done < std::ssize(seeds))
+    print_message(fmt::format("interrupted: {} of {} runs of {} done\n", done, seeds.size(), row.name));
 }
 
 }  // namespace
@@ -107,7 +111,7 @@ int run_mpc_benchmark(const RobotModel& robot, const OnlineOptions& base, const 
   }
   const int status = interrupted ? kInterrupted : kPassed;
   if (json) {
-    print_json({.verb = "mpc", .exit_status = status, .result = runs.text()});
+    print_json({.verb = "mpc", .exit_status = status, .result = json_text({{"runs", runs.all()}})});
   } else {
     print_result(benchmark_table(robot, rows, runs.text()));
   }

@@ -7,6 +7,7 @@
 
 #include "cli/options/shared_options.hpp"
 #include "cli/process/exit_status.hpp"
+#include "cli/process/interrupt.hpp"
 #include "cli/process/program_files.hpp"
 #include "cli/screen/json_result.hpp"
 #include "cli/screen/output.hpp"
@@ -69,6 +70,10 @@ void write_times(const std::string& file, const std::vector<double>& times) {
 std::vector<double> read_times(const std::string& file) {
   const CsvTable table = read_csv_table(read_text_file(file, kLongestTable));
   const auto column = table.values.row(table.index(kTimesColumn));
+  const auto negative = std::ranges::find_if(column, [](double seconds) { return seconds < 0.0; });
+  if (negative != column.end())
+    throw InputError(fmt::format("{}:{}: {}: {:g} is not allowed; need a time >= 0 s", file,
+                                 2 + (negative - column.begin()), kTimesColumn, *negative));
   return {column.begin(), column.end()};
 }
 
@@ -91,8 +96,7 @@ void add_events(const RobotModel& robot, const MpcArguments& arguments, OnlineOp
     add_script(read_script(read_text_file(arguments.script)), options);
   } else if (arguments.random_commands > 0.0) {
     add_random_commands(arguments.random_commands, options);
-  } else {
-    const std::vector<double>& velocity = arguments.command;
+  } else if (const std::vector<double>& velocity = arguments.command; velocity != std::vector<double>(3, 0.0)) {
     options.commands.push_back({kFirstCommand, {velocity[0], velocity[1], velocity[2], 0.0}, {}});
   }
   if (arguments.kicks > 0.0) add_kicks(robot, arguments.kicks, options);
@@ -120,6 +124,15 @@ void check_folder_of(const char* option, const std::string& file) {
     throw InputError(fmt::format("{}: there is no folder {}", option, folder.string()));
 }
 
+OnlineResult run_until_interrupted(const RobotModel& robot, const OnlineOptions& options) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  MotionProgress progress;
+  return run_online(robot, options, [&](OnlineMoment& at) {
+    progress(at.time, at.end);
+    at.stops = interrupted;
+  });
+}
+
 int run_mpc(const MpcArguments& arguments) {
   check_mujoco();
   check_folder_of("--page", arguments.page);
@@ -130,13 +143,12 @@ int run_mpc(const MpcArguments& arguments) {
   if (!arguments.benchmark.file.empty()) return run_mpc_benchmark(robot, options, arguments.benchmark, arguments.json);
   add_events(robot, arguments, options);
   if (arguments.view || !arguments.page.empty()) options.simulation.record_rate = kPageRate;
-  MotionProgress progress;
-  const OnlineResult result = arguments.view
-                                  ? view_online(robot, options, search, arguments.port)
-                                  : run_online(robot, options, [&](OnlineMoment& at) { progress(at.time, at.end); });
+  const OnlineResult result =
+      arguments.view ? view_online(robot, options, search, arguments.port) : run_until_interrupted(robot, options);
   if (!arguments.save_times.empty()) write_times(arguments.save_times, result.times);
   if (!arguments.page.empty()) write_page(robot, arguments, options, result, search);
-  const int status = result.success() ? kPassed : kSimulationFailed;
+  const bool is_interrupted = result.end == OnlineResult::End::stopped && !arguments.view;
+  const int status = is_interrupted ? kInterrupted : result.success() ? kPassed : kSimulationFailed;
   if (arguments.json) {
     print_json({.verb = "mpc", .exit_status = status, .result = online_json(robot, options, result)});
   } else {
@@ -192,6 +204,7 @@ void add_page_options(CLI::App& verb, MpcArguments& arguments) {
   for (const char* const other : {"--save-times", "--replay-times", "--push", "--slope"}) foxglove->excludes(other);
   verb.add_option("--port", arguments.port,
                   "Port of 127.0.0.1 for --view, default: any free one; or for --foxglove, default: 8765")
+      ->check(port_number())
       ->type_name("N")
       ->group(kPages);
   add_python(verb, arguments.python, "numpy, foxglove-sdk and mcap-ros2-support, for --foxglove");
@@ -217,14 +230,14 @@ void add_benchmark_options(CLI::App& verb, MpcArguments& arguments) {
           ->delimiter(',')
           ->type_name("NAMES"),
       verb.add_option("--runs", benchmark.seeds, "Runs of each row at most; default: 1 to 200")
-          ->check(CLI::Range(1, 1000000))
+          ->check(whole_number(1, 1000000))
           ->type_name("N"),
       verb.add_option("--first-seed", benchmark.first_seed,
                       fmt::format("Seed of the first run of each row; default {}", benchmark.first_seed))
           ->check(whole_number())
           ->type_name("N"),
       verb.add_option("--jobs", benchmark.jobs, "Runs at a time; default: one per core")
-          ->check(CLI::Range(1, 1000))
+          ->check(whole_number(1, 1000))
           ->type_name("N")};
   for (CLI::Option* const option : all) option->needs(file)->group(kBenchmark);
 }

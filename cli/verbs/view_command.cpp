@@ -117,7 +117,9 @@ void add_view_command(CLI::App& app, int& status) {
       ->required()
       ->type_name("TASK.toml|DIR")
       ->transform(CLI::Validator([](std::string& name) { return name = find_task(name), std::string(); }, ""));
-  verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any free one")->type_name("N");
+  verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any free one")
+      ->check(port_number())
+      ->type_name("N");
   add_folder(*verb, "--out", arguments->out, "Folder to write the plan of a task into; default: none");
   add_intervals(*verb, arguments->overrides)->group(kMeshOptions);
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, without coarser ones first")

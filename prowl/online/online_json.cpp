@@ -14,6 +14,16 @@ Json ticks_json(const std::vector<double>& times) {
   return {{"median", ticks.median}, {"p99", ticks.p99}, {"longest", ticks.worst}};
 }
 
+const char* name_of(OnlineResult::End end) {
+  switch (end) {
+    case OnlineResult::End::finished: return "finished";
+    case OnlineResult::End::fell: return "fell";
+    case OnlineResult::End::diverged: return "diverged";
+    case OnlineResult::End::stopped: return "stopped";
+  }
+  return "unknown";
+}
+
 Json forces_json(const ForceCount& count) { return {{"plans", count.plans}, {"outside", count.outside}}; }
 
 }  // namespace
@@ -30,24 +40,26 @@ TickTimes::TickTimes(std::vector<double> times) {
 }
 
 std::string online_json(const RobotModel& robot, const OnlineOptions& options, const OnlineResult& result) {
+  const Json last = result.last_velocity ? Json(*result.last_velocity) : Json();
   const Json json = {
       {"robot", robot.name()},
-      {"gait", options.gait},
+      {"gaits", gaits_of(options)},
       {"seed", options.simulation.seed},
       {"success", result.success()},
-      {"end", to_string(result.end)},
+      {"end", name_of(result.end)},
       {"end_time_s", result.end_time},
       {"failures", result.failures},
       {"notes", result.notes},
       {"velocity_error_mps", result.velocity_error},
       {"turn_error_radps", result.turn_error},
-      {"last_velocity_error_mps", result.last_velocity},
+      {"last_velocity_error_mps", last},
       {"largest_torque_share", result.largest_torque_share},
       {"control_steps", result.control_steps},
       {"steps_beyond_limits", result.steps_beyond_limits},
       {"plans", result.counters.updates},
       {"failed_plans", result.counters.failed},
       {"restarted_plans", result.counters.restarted},
+      {"late_plans", result.late},
       {"dropped_plans", result.dropped},
       {"damped_steps", result.counters.damped},
       {"forces", {{"undisturbed", forces_json(result.undisturbed)}, {"kicked", forces_json(result.kicked)}}},

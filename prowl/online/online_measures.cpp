@@ -69,7 +69,8 @@ void OnlineMeasures::finish(OnlineResult& result) const {
   };
   result.velocity_error = mean(velocity_squares_);
   result.turn_error = mean(turn_squares_);
-  if (last_count_ > 0) result.last_velocity = (last_off_ / static_cast<double>(last_count_)).norm();
+  if (last_count_ > 0 && result.end == OnlineResult::End::finished)
+    result.last_velocity = (last_off_ / static_cast<double>(last_count_)).norm();
   result.undisturbed = undisturbed_;
   result.kicked = kicked_;
   result.touches.assign(touches_.begin(), touches_.end());
@@ -84,9 +85,9 @@ void OnlineMeasures::finish(OnlineResult& result) const {
   if (result.counters.updates > 0 && result.counters.failed == result.counters.updates)
     result.failures.push_back(fmt::format("no plan: {} updates failed", result.counters.failed));
   for (const std::string& touch : result.touches) result.failures.push_back("touched: " + touch);
-  if (result.last_velocity > kMostLastVelocity)
+  if (result.last_velocity && *result.last_velocity > kMostLastVelocity)
     result.failures.push_back(fmt::format("mean velocity of the last second {:.2f} m/s off the command; {:g} allowed",
-                                          result.last_velocity, kMostLastVelocity));
+                                          *result.last_velocity, kMostLastVelocity));
 }
 
 }  // namespace prowl

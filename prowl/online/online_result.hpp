@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,9 @@ struct ForceCount {
   double share() const { return plans > 0 ? static_cast<double>(outside) / static_cast<double>(plans) : 0.0; }
 };
 
-/// What came of a run. A fall ends it.
+/// What came of a run. A fall ends it, and so does its watcher.
 struct OnlineResult {
-  using End = SimulationResult::End;
+  enum class End { finished, fell, diverged, stopped };
   End end = End::finished;
   double end_time = 0.0;              ///< [s]
   std::vector<std::string> failures;  ///< in words; empty: success
@@ -35,9 +36,10 @@ struct OnlineResult {
   bool success() const { return failures.empty(); }
 
   // Errors are from the command that the controller follows: within what the legs allow, and smoothed.
-  double velocity_error = 0.0;        ///< RMS error of the base's horizontal velocity [m/s]
-  double turn_error = 0.0;            ///< RMS error of its turn rate [rad/s]; not judged
-  double last_velocity = 0.0;         ///< distance of the mean velocity of the last second from the command [m/s]
+  double velocity_error = 0.0;  ///< RMS error of the base's horizontal velocity [m/s]
+  double turn_error = 0.0;      ///< RMS error of its turn rate [rad/s]; not judged
+  /// Distance of the mean velocity of the last second from the command [m/s]; none if the run ended before.
+  std::optional<double> last_velocity;
   double largest_torque_share = 0.0;  ///< of the limit [-]; infinite if a joint is faster than its limits allow
   long control_steps = 0;
   long steps_beyond_limits = 0;      ///< of these: commanded torques more than 1 % beyond a limit at the true state
@@ -47,7 +49,8 @@ struct OnlineResult {
   std::vector<double> times;      ///< computing time of each plan, CPU time of the thread [s]
   std::vector<double> feedbacks;  ///< part of these after the state was measured [s]
   std::vector<double> walls;      ///< of each plan, in wall-clock time [s]
-  long dropped = 0;               ///< plans that were late and lost
+  long late = 0;                  ///< plans that took longer than the budget
+  long dropped = 0;               ///< of these: lost
   std::vector<OnlineSample> samples;
 };
 

@@ -44,13 +44,14 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void check(const OnlineOptions& options) {
+/// Throws InputError for an option out of range; `nu`: number of joints.
+void check(const OnlineOptions& options, int nu) {
   check_option(options.duration > 0.0 && options.duration <= 1e5, "duration", options.duration,
                "more than 0, at most 1e5 s");
   check_option(options.period >= 1e-3 && options.period <= 0.2, "period", options.period, "0.001 to 0.2 s");
   check_option(options.budget >= 0.0 && options.budget <= 0.2, "budget", options.budget, "0 to 0.2 s");
-  check_option(options.mpc.friction > 0.0 && std::isfinite(options.mpc.friction), "friction", options.mpc.friction,
-               "> 0");
+  check_simulation_options(options.simulation, nu);
+  checked(options.mpc);
   check_option(options.simulation.delay >= 0.0 && options.simulation.delay <= 0.05, "delay", options.simulation.delay,
                "0 to 0.05 s");
   check_option(options.budget + options.simulation.delay <= LatestPlans::kLongestDelay * options.period, "budget",
@@ -60,6 +61,8 @@ void check(const OnlineOptions& options) {
     check_option(timed.time >= last, "commands", timed.time, "times in ascending order");
     last = timed.time;
   }
+  for (const double seconds : options.replayed_times)
+    check_option(seconds >= 0.0 && std::isfinite(seconds), "replayed time", seconds, "a finite number >= 0 s");
 }
 
 /// A posture on level ground, turned about the origin with the ground.
@@ -121,7 +124,10 @@ class Run {
     for (; tick < ticks && result_.end == OnlineResult::End::finished; ++tick) {
       const double t = static_cast<double>(tick) * period_;
       if (record_each > 0 && tick % record_each == 0) result_.samples.push_back(sample(t));
-      if (watch && !ask(watch, t)) break;
+      if (watch && !ask(watch, t)) {
+        result_.end = OnlineResult::End::stopped;
+        break;
+      }
       sense(t);
       obey(t);
       if (t >= next_plan_ - kTimeRounding) plan(t);
@@ -147,9 +153,7 @@ class Run {
     const auto tell = [&](const char* what, double time) {
       if (time >= options_.duration) note(fmt::format("{} at {:g} s is after the end of the run", what, time));
     };
-    for (const TimedCommand& timed : options_.commands) {
-      if (timed.command != MpcCommand{} || !timed.gait.empty()) tell("command", timed.time);
-    }
+    for (const TimedCommand& timed : options_.commands) tell("command", timed.time);
     for (const Push& push : options_.simulation.pushes) tell("push", push.time);
   }
 
@@ -187,6 +191,7 @@ class Run {
       obey(t, options_.commands[next_command_++]);
   }
   void obey(double t, const TimedCommand& timed) {
+    if (!timed.gait.empty()) try_to_follow(timed.gait);
     const MpcCommand &asked = timed.command, kept = mpc_->command(asked);
     const auto text = [](const MpcCommand& c) {
       return fmt::format("{:.3g} m/s ahead, {:.3g} m/s left, {:.3g} rad/s, {:.3g} m up", c.forward, c.left, c.turn,
@@ -194,9 +199,10 @@ class Run {
     };
     if (kept != asked)
       note(fmt::format("command at {:.2f} s ({}) is out of range; followed: {}", t, text(asked), text(kept)));
-    if (timed.gait.empty()) return;
+  }
+  void try_to_follow(const std::string& gait) {
     try {
-      follow(timed.gait);
+      follow(gait);
     } catch (const InputError& error) {  // of a watcher: those of the options were tried before
       note(error.what());
     }
@@ -219,6 +225,7 @@ class Run {
     const double seconds =
         index < options_.replayed_times.size() ? options_.replayed_times[index] : mpc_->computing_time(ended - began);
     result_.times.push_back(seconds);
+    if (seconds > options_.budget) ++result_.late;
     const double period = options_.late == LatePlans::wait ? std::max(options_.period, seconds) : options_.period;
     next_plan_ = t + period;
     if (!has_plan) return;
@@ -312,6 +319,14 @@ LatePlans late_plans_named(const std::string& name) {
   return static_cast<LatePlans>(found - late_plans_names().begin());
 }
 
+std::vector<std::string> gaits_of(const OnlineOptions& options) {
+  std::vector<std::string> gaits = {options.gait};
+  for (const TimedCommand& timed : options.commands) {
+    if (!timed.gait.empty() && timed.gait != gaits.back() && timed.time < options.duration) gaits.push_back(timed.gait);
+  }
+  return gaits;
+}
+
 Surface ground_of(const OnlineOptions& options) {
   const SimulationOptions& simulation = options.simulation;
   const Surface level{.name = "ground", .friction = simulation.physics.friction.value_or(options.mpc.friction)};
@@ -319,8 +334,7 @@ Surface ground_of(const OnlineOptions& options) {
 }
 
 OnlineResult run_online(const RobotModel& robot, const OnlineOptions& options, const OnlineWatcher& watch) {
-  check(options);
-  check_simulation_options(options.simulation, robot.nu());
+  check(options, robot.nu());
   return Run(robot, options)(watch);
 }
 

@@ -37,7 +37,8 @@ struct OnlineOptions {
   double period = 0.01;                ///< between two plans [s]
   double budget = 0.01;                ///< computing time allowed for a plan [s]; with the delay at most seven periods
   LatePlans late = LatePlans::act;
-  /// Computing times of plans [s], in order, in place of those measured: repeats a run with LatePlans::drop or wait.
+  /// Computing times of plans [s], finite and >= 0, in order, in place of those measured: repeats a run with
+  /// LatePlans::drop or wait.
   std::vector<double> replayed_times = {};
   Planner planner = {};  ///< in the place of an MpcController, if it is set
   /// As in a simulation of a plan; `physics.friction` is that of the ground, `ground.tilt` an unknown slope, `pushes`
@@ -54,6 +55,9 @@ struct OnlineMoment {
   bool stops = false;                           ///< ends the run here
 };
 using OnlineWatcher = std::function<void(OnlineMoment&)>;
+
+/// Gaits of a run in order: the first one, and those of the commands until its end.
+std::vector<std::string> gaits_of(const OnlineOptions& options);
 
 /// The ground of a run as it is: its friction, height and slope.
 Surface ground_of(const OnlineOptions& options);

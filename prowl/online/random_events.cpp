@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "prowl/simulation/perturbations.hpp"
 #include "prowl/text/option_check.hpp"
 
@@ -20,6 +22,7 @@ std::mt19937_64 stream_of(const OnlineOptions& options, std::uint64_t stream) {
 }  // namespace
 
 void add_kicks(const RobotModel& robot, double speed, OnlineOptions& options) {
+  check_option(speed > 0.0 && std::isfinite(speed), "kicks", speed, "a finite number > 0 m/s");
   check_option(options.duration > kKickEvery + kAfterKick, "duration", options.duration,
                fmt::format("more than {:g} s: the first kick comes after {:g} s, and none in the last {:g} s",
                            kKickEvery + kAfterKick, kKickEvery, kAfterKick));
@@ -36,6 +39,7 @@ void add_one_kick(const RobotModel& robot, double speed, OnlineOptions& options)
 }
 
 void add_random_commands(double most, OnlineOptions& options) {
+  check_option(most > 0.0 && std::isfinite(most), "random commands", most, "a finite number > 0");
   std::mt19937_64 random = stream_of(options, kCommandStream);
   for (double t = kFirstCommand; t < options.duration - kAfterCommand;
        t += kCommandFor + kCommandSpread * draw_between(0.0, 1.0, random)) {

@@ -44,7 +44,8 @@ class ControllerObject {
                     0.0),
         executor_(robot_, controller_.latest()) {
     check_option(period >= 1e-3 && period <= 0.2, "period", period, "0.001 to 0.2 s");
-    check_option(delay <= LatestPlans::kLongestDelay * period, "delay", delay, "at most seven periods");
+    check_option(delay <= LatestPlans::kLongestDelay * period, "delay", delay,
+                 fmt::format("at most seven periods, {:g} s", LatestPlans::kLongestDelay * period));
     follow(gait);
   }
 
@@ -169,12 +170,15 @@ std::shared_ptr<OnlineObject> run(const RobotModel& robot, const std::string& ga
   options.simulation.seed = seed;
   options.simulation.record_rate = record_rate;
   options.simulation.pushes = pushes_of(pushes, Push{}.duration);
-  if (kicks > 0.0) add_kicks(robot, kicks, options);
+  const bool has_command = command != std::array<double, 3>{}, has_random = random_commands != 0.0;
+  if (has_command + has_random + script.has_value() > 1)
+    throw InputError("command, random_commands, script: need one of them at most");
+  if (kicks != 0.0) add_kicks(robot, kicks, options);
   if (script) {
     add_script(read_script(read_text_file(script->string())), options);
-  } else if (random_commands > 0.0) {
+  } else if (has_random) {
     add_random_commands(random_commands, options);
-  } else if (command != std::array<double, 3>{}) {  // else a watcher commands
+  } else if (has_command) {  // else a watcher commands
     options.commands.push_back({kFirstCommand, {command[0], command[1], command[2], 0.0}, {}});
   }
   const OnlineWatcher watcher = watch ? watcher_of(*watch, record_rate) : OnlineWatcher();

@@ -86,6 +86,11 @@ def test_bad_input(hyq):
     assert np.isfinite(controller.torque(0.0, np.full(19, np.nan), np.zeros(18))).all()
     for t in (np.nan, np.inf, 0.02):
         assert np.isfinite(controller.step(t, controller.standing, np.zeros(18))).all()
+    for options in ({"noise": -1.0}, {"kicks": np.nan}, {"mass": -1.0}, {"record_rate": np.nan}, {"friction": -1.0}):
+        with pytest.raises(prowl.InputError, match=next(iter(options)).split("_")[0]):
+            prowl.run_online(hyq, **options)
+    with pytest.raises(prowl.InputError, match="need one of them at most"):
+        prowl.run_online(hyq, command=(0.1, 0.0, 0.0), random_commands=0.1)
     with pytest.raises(prowl.InputError, match="push"):
         prowl.run_online(hyq, pushes=[(np.nan, (0.0, 1.0, 0.0))])
 

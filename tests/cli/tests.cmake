@@ -45,7 +45,7 @@ if(PROWL_BUILD_CLI)
   endforeach()
 
   # What prowl writes, read by somebody else's code; and a terminal for it that closes.
-  set(python_tests determinism plan_schema hang_up terminal)
+  set(python_tests determinism plan_schema hang_up online terminal)
   if(PROWL_BUILD_PYTHON)
     list(APPEND python_tests figures exports export_command)
   endif()

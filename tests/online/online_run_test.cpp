@@ -58,6 +58,7 @@ TEST(OnlineRun, LatePlansAreLostAndTheirTimesRepeatTheRun) {
   for (std::size_t i = 20; i < 150; i += 7) options.replayed_times[i] = 1.0;
   const OnlineResult once = run_online(robot, options), again = run_online(robot, options);
   EXPECT_EQ(once.dropped, 19);
+  EXPECT_EQ(once.late, 19);
   EXPECT_EQ(once.samples.back().q, again.samples.back().q);
   EXPECT_EQ(once.end, OnlineResult::End::finished) << "the plan before goes on";
 }
@@ -87,8 +88,9 @@ TEST(OnlineRun, AWatcherCommandsKicksAndStops) {
     if (is_at(0.7)) moment.impulse = Eigen::Vector3d(0.0, 20.0, 0.0);
     moment.stops = is_at(2.0);
   });
-  EXPECT_EQ(result.end, OnlineResult::End::finished);
+  EXPECT_EQ(result.end, OnlineResult::End::stopped);
   EXPECT_NEAR(result.end_time, 2.0, 1e-9);
+  EXPECT_FALSE(result.last_velocity) << "it ended before";
   EXPECT_NEAR(result.samples.back().commanded.x(), 0.3, 1e-9);
   EXPECT_GT(result.kicked.plans, 50);
   ASSERT_EQ(result.notes.size(), 2);
@@ -129,7 +131,22 @@ TEST(OnlineRun, RefusesOptionsOutOfRange) {
     options.commands = {{.time = 1.0, .command = {}}, {.time = second, .command = {}}};
     EXPECT_THROW(run_online(robot, options), InputError) << "commands are followed in order of time";
   }
-  options = {};
+  const auto refuses = [&](auto&& change) {
+    OnlineOptions changed;
+    change(changed);
+    EXPECT_THROW(run_online(robot, changed), InputError);
+  };
+  for (const double value : {-1.0, nan}) {
+    refuses([&](OnlineOptions& bad) { bad.simulation.noise_scale = value; });
+    refuses([&](OnlineOptions& bad) { bad.simulation.physics.friction = value; });
+    refuses([&](OnlineOptions& bad) { bad.simulation.physics.mass_scale = value; });
+    refuses([&](OnlineOptions& bad) { bad.simulation.record_rate = value; });
+    refuses([&](OnlineOptions& bad) { bad.mpc.friction = value; });
+    refuses([&](OnlineOptions& bad) { bad.replayed_times = {0.001, value}; });
+    options = {};
+    EXPECT_THROW(add_kicks(robot, value, options), InputError);
+    EXPECT_THROW(add_random_commands(value, options), InputError);
+  }
   options.duration = 3.0;
   EXPECT_THROW(add_kicks(robot, 0.5, options), InputError) << "without a kick";
 }

@@ -62,7 +62,7 @@ TEST(OutsideController, IsToldThatItDidNotFollowItsCommand) {
   options.planner = std::ref(hold);
   options.commands = {{.time = 0.0, .command = {.forward = 0.3}}};
   const OnlineResult result = run_online(hold.robot, options);
-  EXPECT_NEAR(result.last_velocity, 0.3, 0.02);
+  EXPECT_NEAR(result.last_velocity.value(), 0.3, 0.02);
   ASSERT_EQ(result.failures.size(), 1U);
   EXPECT_NE(result.failures.front().find("off the command"), std::string::npos) << result.failures.front();
 }
