@@ -1,5 +1,5 @@
 // The control loop of a robot with predictive control: torques every millisecond, a new plan every 10 ms by a second
-// thread. MuJoCo stands in for the robot:  control_loop hyq.toml [FOLDER of robot packages]
+// thread. MuJoCo stands in for the robot:  control_loop robots/hyq.toml [FOLDER of robot packages]
 #include <atomic>
 #include <chrono>
 #include <iostream>
@@ -27,10 +27,11 @@ int main(int count, char** arguments) try {
   if (count > 2) packages.folders = {arguments[2]};
   const prowl::RobotModel model = prowl::load_robot(prowl::read_text_file(arguments[1]), packages);
   prowl::MpcOptions options;
-  options.delay = 0.012;  // from a measured state to the time at which its plan acts
+  options.delay = 0.012;  // from a measured state to the time at which its plan acts: 10 ms to plan, 2 ms reserve
   const Eigen::VectorXd standing = prowl::standing_on_ground(model);
-  Measured now{0.0, standing, Eigen::VectorXd::Zero(model.nv()), std::vector<bool>(4, true)};
-  prowl::MpcController controller(model, options, now.q, now.v, 0.0);  // throws if the robot cannot stand
+  prowl::MpcController controller(model, options, standing, Eigen::VectorXd::Zero(model.nv()), 0.0);  // may throw
+  const std::size_t num_feet = controller.feet().size();
+  Measured now{0.0, standing, Eigen::VectorXd::Zero(model.nv()), std::vector<bool>(num_feet, true)};
   controller.follow(prowl::stepping_pattern(model, controller.feet(), standing.z(), "trot"));
   controller.command({.forward = 0.3});
   prowl::PlanExecutor executor(model, controller.latest());
@@ -52,7 +53,7 @@ int main(int count, char** arguments) try {
     }
   });
 
-  const double least_load = 0.05 * model.weight() / 4.0;  // of a switch that closes
+  const double least_load = 0.05 * model.weight() / static_cast<double>(num_feet);  // of a switch that closes
   Eigen::VectorXd tau(model.nu());
   const auto began = std::chrono::steady_clock::now();
   for (int tick = 0; tick < 5000; ++tick) {
@@ -62,7 +63,8 @@ int main(int count, char** arguments) try {
       now.t = t;
       now.q = robot.q();
       now.v = robot.v();
-      for (int foot = 0; foot < 4; ++foot) now.touches[foot] = robot.contacts()[foot].load > least_load || tick == 0;
+      for (std::size_t f = 0; tick > 0 && f < num_feet; ++f)  // loads are known after the first step
+        now.touches[f] = robot.contacts()[controller.feet()[f].front()].load > least_load;
     }
     executor.torque(t, robot.q(), robot.v(), tau);  // within the limits; no allocation, never waits
     if (!robot.step(tau)) break;

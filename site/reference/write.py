@@ -75,7 +75,7 @@ def described(signature: str, description: str) -> list[str]:
         if not all(re.search(rf"\b{choice}\b", description) for choice in names):
             description += "; choices: " + ", ".join(names)
     description = re.sub(r"default:? /\S+", "default: that of the installation", description)  # a path of this machine
-    description = re.sub(r"\bdocs/([\w-]+\.md)", r"[\1](\1)", cell(description))
+    description = re.sub(r"\bdocs/([\w-]+\.md)(#[\w-]+)?", r"[\1](\1\2)", cell(description))
     return [f"`{name.strip().replace('|', ' or ')}`", description]
 
 
