@@ -51,7 +51,7 @@ class Online(unittest.TestCase):
         self.assertEqual([run["row"] for run in answer["runs"]], ["one_kick_0.5"])
 
     def interrupt(self, *options: object) -> tuple[str, str, int]:
-        """After seconds in which it has begun. Its results do not depend on when."""
+        """Ctrl-C four seconds after the start, when it runs for certain."""
         command = [PROWL, "mpc", "hyq", *map(str, options)]
         with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
             time.sleep(4.0)
@@ -79,9 +79,15 @@ class Online(unittest.TestCase):
         times = self.folder / "times.csv"
         times.write_text("plan_s\n0.001\n-0.001\n")
         for options, message in (
-            (("--late", "drop", "--replay-times", times), f"{times}:3: plan_s: -0.001 is not allowed; need a time >= 0 s"),
+            (
+                ("--late", "drop", "--replay-times", times),
+                f"{times}:3: plan_s: -0.001 is not allowed; need a time >= 0 s",
+            ),
             (("--view", "--port", 70000), "--port: 70000 is not allowed; need a whole number from 0 to 65535"),
-            (("--benchmark", "runs.json", "--runs", 0), "--runs: 0 is not allowed; need a whole number from 1 to 1000000"),
+            (
+                ("--benchmark", "runs.json", "--runs", 0),
+                "--runs: 0 is not allowed; need a whole number from 1 to 1000000",
+            ),
         ):
             with self.subTest(options=options):
                 answer = mpc(*options)
