@@ -70,10 +70,9 @@ std::string benchmark_table(const RobotModel& robot, const std::vector<Benchmark
   const Json all = Json::parse(runs);
   std::string text = fmt::format(
       "{}. Errors from the smoothed command: RMS of velocity [m/s] and of turn rate [rad/s]. CPU times of plans [ms]: "
-      "p50 "
-      "and p99 of a run; median and worst of the runs. Outside: plans with forces outside their cones by more than 1 % "
-      "of the weight. Beyond: control steps whose "
-      "commanded torques are more than 1 % beyond a limit at the true state.\n\n"
+      "p50 and p99 of a run; median and worst of the runs. Outside: plans with forces outside their cones by more than "
+      "1 % of the weight. Beyond: control steps whose commanded torques are more than 1 % beyond a limit at the true "
+      "state.\n\n"
       "| row | meaning | success | 95 % interval | falls | pendulum [m/s] | velocity error, median | worst | turn "
       "error, worst | p50, median | p99, worst | longest | p99 of feedback | outside | within 0.5 s of a kick | beyond "
       "| dropped |\n"

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -147,6 +148,7 @@ int run_mpc(const MpcArguments& arguments) {
       arguments.view ? view_online(robot, options, search, arguments.port) : run_until_interrupted(robot, options);
   if (!arguments.save_times.empty()) write_times(arguments.save_times, result.times);
   if (!arguments.page.empty()) write_page(robot, arguments, options, result, search);
+  // Ctrl-C is how one leaves the live page.
   const bool is_interrupted = result.end == OnlineResult::End::stopped && !arguments.view;
   const int status = is_interrupted ? kInterrupted : result.success() ? kPassed : kSimulationFailed;
   if (arguments.json) {

@@ -26,7 +26,7 @@ struct ForceCount {
   double share() const { return plans > 0 ? static_cast<double>(outside) / static_cast<double>(plans) : 0.0; }
 };
 
-/// What came of a run. A fall ends it, and so does its watcher.
+/// What came of a run. A fall ends it, and so may its watcher.
 struct OnlineResult {
   enum class End { finished, fell, diverged, stopped };
   End end = End::finished;

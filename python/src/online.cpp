@@ -212,7 +212,7 @@ void bind_controller(nb::module_& module) {
       .def("command", &ControllerObject::command, nb::arg("forward") = 0.0, nb::arg("left") = 0.0,
            nb::arg("turn") = 0.0, nb::arg("height") = 0.0,
            "Velocities [m/s], turn rate [rad/s] and height over the standing one [m]. Returns what is followed: "
-           "within what the legs allow.")
+           "within what the legs allow, without velocity while the robot stands.")
       .def("update", &ControllerObject::update, nb::arg("t"), nb::arg("q"), nb::arg("v"),
            nb::arg("touches") = nb::none(),
            "Plans from the state measured at t; touches: whether each foot touches the ground. False if there is no "
