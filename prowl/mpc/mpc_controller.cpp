@@ -21,11 +21,11 @@ constexpr int kFirstIterations = 30;   ///< of the plan with which a controller 
 
 MpcController::MpcController(const RobotModel& robot, const MpcOptions& options, const VectorXd& q, const VectorXd& v,
                              double t)
-    : OnlineController(robot, checked(options).delay, q, t, options.steps, MpcPlan::kMostFeedback),
-      options_(options),
-      program_(robot, options.weights, options.friction, options.steps),
-      solver_(program_, options.barrier, options.iterations, options.feedback_iterations),
-      grid_(options.steps, options.first_step, options.least_horizon),
+    : OnlineController(robot, options.delay, q, t, options_for(robot, options).steps, MpcPlan::kMostFeedback),
+      options_(options_for(robot, options)),
+      program_(robot, options_.weights, options_.friction, options_.steps),
+      solver_(program_, options_.barrier, options_.iterations, options_.feedback_iterations),
+      grid_(options_.steps, options_.first_step, options_.least_horizon),
       terms_(robot_),
       ground_(static_cast<int>(robot.contacts().size()), robot.size()),
       bounds_(program_, options_) {
@@ -37,7 +37,7 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
   failed_at_ = q;
   grid_.lay(t, timeline_);
   MpcPlan& plan = plans_.begin_next();
-  for (int k = 0; k < options.steps; ++k) {
+  for (int k = 0; k < options_.steps; ++k) {
     MpcPlan::Step& step = plan.steps()[static_cast<std::size_t>(k)];
     step = still;
     step.start = grid_.time(k);
@@ -47,7 +47,7 @@ MpcController::MpcController(const RobotModel& robot, const MpcOptions& options,
     old_times_.push_back(grid_.time(k));
   }
   old_times_.push_back(grid_.end());
-  program_.use_hessian(options.hessian);
+  program_.use_hessian(options_.hessian);
   look(q, t);
   bool solved = false;
   for (int i = 0; i < kFirstIterations; ++i) solved = update(q, v, t);

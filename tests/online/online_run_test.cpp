@@ -37,6 +37,17 @@ TEST(OnlineRun, TrotsAsCommanded) {
   EXPECT_EQ(result.kicked.plans, 0);
 }
 
+TEST(OnlineRun, BipedWalksAsCommanded) {
+  const RobotModel robot(test::talos_description());
+  OnlineOptions options = commanded(0.2);
+  options.gait = "walk";
+  options.period = options.budget = 0.04;
+  const OnlineResult result = run_online(robot, options);
+  EXPECT_TRUE(result.success()) << result.failures.front();
+  EXPECT_GT(result.samples.back().q.x(), 0.5) << "distance ahead [m]";
+  EXPECT_EQ(result.steps_beyond_limits, 0);
+}
+
 TEST(OnlineRun, RepeatsBitForBit) {
   const RobotModel robot(test::hyq_description());
   OnlineOptions options = commanded(0.2);
