@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "prowl/mpc/standing_robot.hpp"
-
 namespace prowl {
 namespace {
 
@@ -26,8 +24,7 @@ QuadraticCost quadratic(const RobotModel& robot, const MpcWeights& w, const Vect
   const double g = RobotModel::kGravity;
   cost.acceleration_weight.head<6>() << Eigen::Vector3d::Constant(w.acceleration / (g * g)),
       Eigen::Vector3d::Constant(w.acceleration * time * time * time * time);
-  const bool is_biped = contacts_of_feet(robot).size() == 2;
-  cost.configuration_weight.tail(nu).setConstant(is_biped ? w.posture_of_biped : w.posture);
+  cost.configuration_weight.tail(nu).setConstant(w.posture);
   cost.velocity_weight.tail(nu).setConstant(w.joint_rate * time * time);
   cost.acceleration_weight.tail(nu).setConstant(w.acceleration * time * time * time * time);
   cost.tau_ref = VectorXd::Zero(nu);

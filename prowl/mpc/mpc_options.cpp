@@ -39,6 +39,7 @@ MpcOptions options_for(const RobotModel& robot, const MpcOptions& options) {
   if (contacts_of_feet(robot).size() == 2) {
     result.steps = options.steps_of_biped;
     result.clearance = options.clearance_of_biped;
+    result.weights.posture = options.weights.posture_of_biped;
   }
   result.first_step = std::max(options.first_step, options.delay);
   return result;

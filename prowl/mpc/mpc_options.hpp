@@ -10,7 +10,7 @@ struct MpcOptions {
   MpcWeights weights;
   double friction = 0.6;       ///< coefficient of the ground that plans may use [-]
   int steps = 20;              ///< of the horizon
-  int steps_of_biped = 12;     ///< the same for a robot on two feet: Talos holds as well as with 20, in half the time
+  int steps_of_biped = 12;     ///< the same for a robot on two feet: Talos holds as well as with 20, in 0.7 of the time
   double first_step = 0.015;   ///< [s]; the delay if that is longer
   double least_horizon = 0.6;  ///< [s]; a stride if that is longer
   double clearance = 0.12;     ///< height of a swing, as a share of the robot's standing height [-]
@@ -29,8 +29,8 @@ struct MpcOptions {
 /// The same options; throws InputError for one out of range.
 const MpcOptions& checked(const MpcOptions& options);
 
-/// Checked, with steps and clearance of this robot, and a first step no shorter than the delay: what is measured cannot
-/// change the motion before.
+/// Checked, with the values of a biped if it is one, and a first step no shorter than the delay: what is measured
+/// cannot change the motion before.
 MpcOptions options_for(const RobotModel& robot, const MpcOptions& options);
 
 }  // namespace prowl

@@ -128,10 +128,12 @@ TEST(MpcController, FitsOptionsToRobotAndDelay) {
   const MpcOptions shipped, of_biped = options_for(RobotModel(test::talos_description()), {.delay = 0.042});
   EXPECT_EQ(of_biped.steps, shipped.steps_of_biped);
   EXPECT_EQ(of_biped.clearance, shipped.clearance_of_biped);
+  EXPECT_EQ(of_biped.weights.posture, shipped.weights.posture_of_biped);
   EXPECT_EQ(of_biped.first_step, 0.042);
   const MpcOptions of_quadruped = options_for(RobotModel(test::hyq_description()), {.delay = 0.012});
   EXPECT_EQ(of_quadruped.steps, shipped.steps);
   EXPECT_EQ(of_quadruped.clearance, shipped.clearance);
+  EXPECT_EQ(of_quadruped.weights.posture, shipped.weights.posture);
   EXPECT_EQ(of_quadruped.first_step, shipped.first_step);
 }
 
