@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "prowl/mpc/standing_robot.hpp"
 #include "prowl/text/option_check.hpp"
@@ -11,6 +13,26 @@ namespace {
 
 constexpr int kMostSteps = 200;
 constexpr double kMostDelay = 0.5;  ///< [s]
+
+void check_weights(const MpcWeights& w) {
+  const std::pair<const char*, double> weights[] = {{"place", w.place},
+                                                    {"height", w.height},
+                                                    {"tilt", w.tilt},
+                                                    {"heading", w.heading},
+                                                    {"posture", w.posture},
+                                                    {"posture_of_biped", w.posture_of_biped},
+                                                    {"velocity", w.velocity},
+                                                    {"climb", w.climb},
+                                                    {"turning", w.turning},
+                                                    {"joint_rate", w.joint_rate},
+                                                    {"acceleration", w.acceleration},
+                                                    {"torque", w.torque},
+                                                    {"force", w.force},
+                                                    {"terminal", w.terminal}};
+  for (const auto& [name, value] : weights)
+    check_option(value >= 0.0 && std::isfinite(value), std::string("weights.") + name, value, ">= 0");
+  check_option(w.penalty > 0.0 && std::isfinite(w.penalty), "weights.penalty", w.penalty, "> 0");
+}
 
 }  // namespace
 
@@ -31,6 +53,7 @@ const MpcOptions& checked(const MpcOptions& options) {
   check_option(options.feedback_iterations >= 1, "feedback_iterations", options.feedback_iterations, "1 or more");
   check_option(options.barrier > 0.0 && std::isfinite(options.barrier), "barrier", options.barrier, "> 0");
   check_option(options.friction > 0.0 && std::isfinite(options.friction), "friction", options.friction, "> 0");
+  check_weights(options.weights);
   return options;
 }
 

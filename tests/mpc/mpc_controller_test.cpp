@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
@@ -122,6 +123,9 @@ TEST(MpcController, RefusesOptionsOutOfRange) {
   refuses({.delay = std::numeric_limits<double>::quiet_NaN()});
   refuses({.iterations = 0});
   refuses({.feedback_iterations = 0});
+  refuses({.weights = {.torque = -0.1}});
+  refuses({.weights = {.force = std::numeric_limits<double>::quiet_NaN()}});
+  refuses({.weights = {.penalty = 0.0}});
 }
 
 TEST(MpcController, FitsOptionsToRobotAndDelay) {
@@ -191,6 +195,30 @@ TEST(MpcController, RecoversFromStatesAndTimesThatNoRobotReaches) {
   for (const double time : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     EXPECT_FALSE(standing.mpc.update(standing.q, standing.v, time));
   EXPECT_EQ(failures_of_good_states(), 0);
+}
+
+/// However wild, if it takes them for states.
+TEST(MpcController, RecoversFromRandomStates) {
+  Standing standing(test::hyq_description(), {.delay = 0.012});
+  standing.trot();
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0), decades(-1.0, 2.5);
+  VectorXd tau;
+  double t = 0.0;
+  for (int repeat = 0; repeat < 15; ++repeat) {
+    for (int wild = 0; wild < 7; ++wild) {
+      VectorXd q = standing.q, v = standing.v;
+      const double size = std::pow(10.0, decades(rng));
+      for (Eigen::Index i = 0; i < v.size(); ++i) v(i) = 0.1 * size * uniform(rng);
+      for (Eigen::Index i = 7; i < q.size(); ++i) q(i) += size * uniform(rng);
+      standing.mpc.update(q, v, t += 0.01);
+      standing.mpc.torque(t, q, v, tau);
+      EXPECT_TRUE(tau.allFinite()) << repeat;
+    }
+    int failures = 0;
+    for (int i = 0; i < 30; ++i) failures += standing.mpc.update(standing.q, standing.v, t += 0.01) ? 0 : 1;
+    EXPECT_LT(failures, 20) << repeat;
+  }
 }
 
 TEST(MpcController, FeelsNothingAtTimesThatAreNone) {
