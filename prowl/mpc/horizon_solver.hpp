@@ -13,8 +13,9 @@ namespace prowl {
 ///
 ///   prepare()  from the state that the variables predict. The first iteration begins with the previous active
 ///              set; if it changes, predictor-corrector iterations follow.
-///   step()     from the measured state, which is near. Its first iteration has the factors of prepare(); others follow
-///              only if the active set of steps that may act changes. The next prepare() sees to the rest.
+///   step()     from the measured state, which is near. Its first iteration has the factors of prepare(); if the active
+///              set of the near steps changes, others follow for these alone, with the cost-to-go behind them as it is.
+///              Later steps follow once. The next prepare() sees to them.
 class HorizonSolver {
  public:
   /// A view of `program`, which must outlive it. `barrier`: mu of a step of mean length.
@@ -41,35 +42,33 @@ class HorizonSolver {
   double violation() const { return violation_; }
   double step_share() const { return share_; }         ///< of Newton's step that was taken
   int iterations() const { return done_; }             ///< of the latest part
-  double residual() const { return residual(near_); }  ///< largest of the rows of its first steps, which act
+  double residual() const { return residual(near_); }  ///< largest of the rows of the near steps
 
   static constexpr double kTolerance = 0.01, kUnsolved = 0.1;  ///< in units of the rows
 
  private:
   double scaled(double barrier, int k) const;
   double residual(int stages) const;
-  void set_weights();
-  void aim(double barrier);
-  void correct(double barrier);
-  void set_cost_gradient();
-  void set_gradient();
-  bool factorise();
-  bool find_direction();
-  double longest() const;
-  void take(double share);
-  double products(double share) const;
-  bool solve(int judged, int most_iterations);
-  bool solve_anew(int judged, int most_iterations);
+  const Eigen::VectorXd& values(int k);
+  bool begin(int stages, double barrier);
+  bool factorise(int stages);
+  void sweep_back(int stages);
+  bool find_direction(int begin, int end);
+  double longest(int stages) const;
+  void take(int begin, int end, double share);
+  double products(int stages, double share) const;
+  bool solve(int stages, int most_iterations);
+  bool solve_anew(int stages, int most_iterations);
 
   HorizonProgram& program_;
   StageKkt kkt_;
   double barrier_;
   std::vector<BarrierRows> rows_;
-  int iterations_, feedback_iterations_, near_;  ///< near_: steps that may act before the next plans replace them
+  int iterations_, feedback_iterations_, near_;  ///< near_: number of the near steps
   double mean_length_ = 0.0;
-  StageVectors weights_, pull_, cost_gradient_, gradient_, equalities_, links_;
-  StageVectors step_, inequalities_;  ///< so far in the quadratic program, and its rows there
-  Eigen::VectorXd nothing_, states_, start_;
+  StageVectors weights_, pull_, gradient_, equalities_, links_;
+  StageVectors step_, along_;  ///< so far in the quadratic program, and by how much that changes its rows
+  Eigen::VectorXd nothing_, states_, values_, change_;
   Eigen::MatrixXd gain_;
   std::vector<double> residuals_;  ///< of the rows of each step: how far distances are from them
   int done_ = 0;

@@ -181,6 +181,36 @@ TEST(StageKkt, IsTheDenseSolution) {
   }
 }
 
+/// As a controller does that has prepared for another state: what changes in the first stages alone needs no others.
+TEST(StageKkt, FirstStagesAreSolvedAnewBeforeTheSameRest) {
+  std::mt19937 rng(37);
+  for (const std::vector<StageSize>& sizes : {kFree, kEqualities, kPassed}) {
+    const int stages = static_cast<int>(sizes.size());
+    for (int first = 1; first <= stages; ++first) {
+      RandomChain chain(rng, sizes);
+      System system = random_system(rng, chain, 2.0);
+      chain.linearise_all();
+      StageKkt kkt(chain);
+      kkt.determine_inputs();
+      ASSERT_EQ(kkt.factorise(Hessian::lagrangian, 0.3, system.weights), Outcome::solvable);
+      kkt.sweep_back(stages, system.gradient, system.equalities, system.links);
+
+      const System other = random_system(rng, chain, 2.0);
+      for (int k = 0; k < first; ++k) {
+        system.gradient[k] = other.gradient[k];
+        system.weights[k] = other.weights[k];
+      }
+      ASSERT_EQ(kkt.factorise_first(first, Hessian::lagrangian, 0.3, system.weights), Outcome::solvable);
+      kkt.sweep_back(first, system.gradient, system.equalities, system.links);
+      kkt.sweep_ahead(0, first, system.links);
+      kkt.sweep_ahead(first, stages, system.links);
+      const Dense dense(chain, Hessian::lagrangian, 0.3, system);
+      EXPECT_LT(test::relative_error(steps_of(kkt), dense.solution().head(dense.M.rows())), 1e-8) << first;
+      EXPECT_LT(residual(kkt, dense), 1e-8) << first;
+    }
+  }
+}
+
 /// The last equalities of the last stage are also ones of the first.
 TEST(StageKkt, ClosesAChain) {
   std::mt19937 rng(23);

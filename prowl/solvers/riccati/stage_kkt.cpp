@@ -79,16 +79,22 @@ void StageKkt::determine_inputs() {
 }
 
 StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const StageVectors& weights) {
+  const Outcome outcome = factorise_first(num_stages_, hessian, delta, weights);
+  if (outcome != Outcome::solvable || num_closing() == 0) return outcome;
+  return factorise_closure() ? Outcome::solvable : Outcome::indefinite;
+}
+
+StageKkt::Outcome StageKkt::factorise_first(int stages, Hessian hessian, double delta, const StageVectors& weights) {
   num_negative_ = 0;
   hessian_ = hessian;
   delta_ = delta;
   weights_ = weights;
-  for (int k = num_stages_ - 1; k >= 0; --k) {
+  for (int k = stages - 1; k >= 0; --k) {
     last_stage_ = k;
     const Outcome outcome = factorise_stage(k);
     if (outcome != Outcome::solvable) return outcome;
   }
-  return num_closing() == 0 || factorise_closure() ? Outcome::solvable : Outcome::indefinite;
+  return Outcome::solvable;
 }
 
 MatrixXd& StageKkt::Shared::of_size(Index rows, Index cols) {

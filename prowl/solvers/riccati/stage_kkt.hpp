@@ -53,6 +53,9 @@ class StageKkt {
   /// `weights`: of the inequalities, one vector per stage. With `identity` M omits the Hessian of
   /// the Lagrangian.
   Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
+  /// The same for the first `stages` alone: the factors of the others, and with them the cost-to-go, stay. Not for
+  /// closed chains.
+  Outcome factorise_first(int stages, Hessian hessian, double delta, const StageVectors& weights);
   int last_stage() const { return last_stage_; }    ///< stage where the latest factorisation ended; 0 if solvable
   int num_pivoted() const { return num_pivoted_; }  ///< stages whose determined inputs full pivoting chose
 
@@ -60,6 +63,12 @@ class StageKkt {
   /// residual at which iterative refinement may stop.
   void solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
              double accuracy = 0.0);
+
+  /// The two halves of solve(), without refinement, for chains that are not closed. sweep_back() begins at the last of
+  /// the first `stages`; what the latest one left of the others stays.
+  void sweep_back(int stages, const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
+  /// Steps and multipliers of the stages from `begin` to before `end`, after those of all stages before.
+  void sweep_ahead(int begin, int end, const StageVectors& links);
 
   /// dx_0 of the solutions after it; zero before. Only with Start::given.
   void set_start(const Eigen::Ref<const Eigen::VectorXd>& states) { steps_.front().tail(states.size()) = states; }
@@ -133,6 +142,9 @@ class StageKkt {
   template <class Pivots>
   int count_independent(const Eigen::MatrixXd& equalities, const Pivots& pivots);
   Outcome factorise_stage(int k);
+  const Eigen::VectorXd* link_of(int k, const StageVectors& links) const {
+    return k + 1 < num_stages_ ? &links[static_cast<std::size_t>(k)] : nullptr;
+  }
   void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
   void forward(int k, const Eigen::VectorXd* link);
   void find_multipliers(int k);

@@ -136,9 +136,17 @@ bool StageKkt::factorise_closure() {
 }
 
 void StageKkt::solve_chain(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
-  const auto link = [&](int k) { return k + 1 < num_stages_ ? &links[k] : nullptr; };
-  for (int k = num_stages_ - 1; k >= 0; --k) backward(k, gradient[k], equalities[k], link(k));
-  for (int k = 0; k < num_stages_; ++k) forward(k, link(k));
+  sweep_back(num_stages_, gradient, equalities, links);
+  sweep_ahead(0, num_stages_, links);
+}
+
+void StageKkt::sweep_back(int stages, const StageVectors& gradient, const StageVectors& equalities,
+                          const StageVectors& links) {
+  for (int k = stages - 1; k >= 0; --k) backward(k, gradient[k], equalities[k], link_of(k, links));
+}
+
+void StageKkt::sweep_ahead(int begin, int end, const StageVectors& links) {
+  for (int k = begin; k < end; ++k) forward(k, link_of(k, links));
 }
 
 void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalities, const VectorXd* link) {
