@@ -51,7 +51,11 @@ StageKkt::StageKkt(LinearisedChain& chain, Start start) : chain_(chain), num_sta
     const int variables = s.size.variables(), next = k + 1 < num_stages_ ? chain.size(k + 1).states : 0;
     for (int i = 0; i < variables; ++i) s.order.push_back(i);
     // Online nothing may be allocated where a stage first needs full pivoting.
-    if (start == Start::given) s.full_lu = Eigen::FullPivLU<MatrixXd>(s.size.equalities, s.size.inputs);
+    if (start == Start::given) {
+      s.full_lu = Eigen::FullPivLU<MatrixXd>(s.size.equalities, s.size.inputs);
+      work_.in_states.of_size(s.size.equalities, s.size.states);
+      work_.M.of_size(variables, variables);
+    }
     s.P.setZero(s.size.states, s.size.states);
     s.p.setZero(s.size.states);
     steps_.push_back(VectorXd::Zero(variables));
