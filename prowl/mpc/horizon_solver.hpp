@@ -9,18 +9,19 @@
 namespace prowl {
 
 /// Real-time sequential quadratic programming on a HorizonProgram. One linearisation gives one quadratic program, which
-/// an interior-point method solves twice:
+/// an interior-point method solves:
 ///
 ///   prepare()  from the state that the variables predict. The first iteration begins with the previous active
-///              set; if it changes, predictor-corrector iterations follow.
-///   step()     from the measured state, which is near. Its first iteration has the factors of prepare(); if the active
-///              set of the near steps changes, others follow for these alone, with the cost-to-go behind them as it is.
-///              Later steps follow once. The next prepare() sees to them.
+///              set; if it changes, predictor-corrector iterations follow. Then all is ready for another state.
+///   step()     from the measured state, which is near, with these factors. If rows of the near steps do not fit,
+///   others
+///              follow for these steps alone, before the cost-to-go that prepare() found. Later steps follow by one
+///              step of Newton's: if their active set changes, the next prepare() finds that.
 class HorizonSolver {
  public:
   /// A view of `program`, which must outlive it. `barrier`: mu of a step of mean length.
   /// `iterations`, `feedback_iterations` >= 1: maximum of prepare() and step(), which end when the distances fit their
-  /// rows within kTolerance.
+  /// rows within kTolerance; in step() those of the near steps.
   HorizonSolver(HorizonProgram& program, double barrier, int iterations, int feedback_iterations);
 
   /// Forgets distances and multipliers of all rows.
@@ -32,7 +33,7 @@ class HorizonSolver {
   /// possible: do not call step().
   bool prepare();
   /// After prepare(): moves all variables and multipliers by Newton's step, with this start of the first step. False if
-  /// the step is not finite, or the quadratic program is far from solved; then no variable has moved.
+  /// the step is not finite, or rows of the near steps are far from fitting; then no variable has moved.
   bool step(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
   /// After prepare(): derivative of the torques of step k in (q, v) at its start, in physical units, nu x 2 nv.
   void torque_gain(int k, Eigen::Ref<Eigen::MatrixXd> gain);
@@ -50,7 +51,7 @@ class HorizonSolver {
   double scaled(double barrier, int k) const;
   double residual(int stages) const;
   const Eigen::VectorXd& values(int k);
-  bool begin(int stages, double barrier);
+  bool set_up(int stages, double barrier);
   bool factorise(int stages);
   void sweep_back(int stages);
   bool find_direction(int begin, int end);
@@ -59,6 +60,7 @@ class HorizonSolver {
   double products(int stages, double share) const;
   bool solve(int stages, int most_iterations);
   bool solve_anew(int stages, int most_iterations);
+  bool follow_near();
 
   HorizonProgram& program_;
   StageKkt kkt_;
@@ -68,7 +70,7 @@ class HorizonSolver {
   double mean_length_ = 0.0;
   StageVectors weights_, pull_, gradient_, equalities_, links_;
   StageVectors step_, along_;  ///< so far in the quadratic program, and by how much that changes its rows
-  Eigen::VectorXd nothing_, states_, values_, change_;
+  Eigen::VectorXd nothing_, states_, after_near_, values_, change_;
   Eigen::MatrixXd gain_;
   std::vector<double> residuals_;  ///< of the rows of each step: how far distances are from them
   int done_ = 0;

@@ -37,7 +37,7 @@ namespace prowl {
 class StageKkt {
  public:
   /// The states of the first stage are variables like its inputs (of a chain they are usually empty), or given: then
-  /// dx_0 is that of set_start(), and the inputs of the first stage follow from it by a gain.
+  /// dx_0 is that of set_states(), and the inputs of the first stage follow from it by a gain.
   enum class Start { free, given };
 
   /// A view of `chain`, which must outlive it.
@@ -53,8 +53,8 @@ class StageKkt {
   /// `weights`: of the inequalities, one vector per stage. With `identity` M omits the Hessian of
   /// the Lagrangian.
   Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
-  /// The same for the first `stages` alone: the factors of the others, and with them the cost-to-go, stay. Not for
-  /// closed chains.
+  /// The same for the first `stages` alone: the factors of the others, and with them the cost-to-go, stay. Only sweeps
+  /// may follow, as refinement would take all of this for the whole chain's. Not for closed chains.
   Outcome factorise_first(int stages, Hessian hessian, double delta, const StageVectors& weights);
   int last_stage() const { return last_stage_; }    ///< stage where the latest factorisation ended; 0 if solvable
   int num_pivoted() const { return num_pivoted_; }  ///< stages whose determined inputs full pivoting chose
@@ -70,8 +70,11 @@ class StageKkt {
   /// Steps and multipliers of the stages from `begin` to before `end`, after those of all stages before.
   void sweep_ahead(int begin, int end, const StageVectors& links);
 
-  /// dx_0 of the solutions after it; zero before. Only with Start::given.
-  void set_start(const Eigen::Ref<const Eigen::VectorXd>& states) { steps_.front().tail(states.size()) = states; }
+  /// dx_k from which the next sweep_ahead() begins there. dx_0 is also that of later solutions; zero before. Only with
+  /// Start::given.
+  void set_states(int k, const Eigen::Ref<const Eigen::VectorXd>& states) {
+    steps_[static_cast<std::size_t>(k)].tail(states.size()) = states;
+  }
   /// Of the latest factorisation: du_k = gain dx_k, besides what the right-hand sides add. `gain`: inputs x states of
   /// the stage. Not for closed chains.
   void input_gain(int k, Eigen::Ref<Eigen::MatrixXd> gain);

@@ -1,4 +1,4 @@
-// StageKkt::solve(), with the factors of stage_kkt.cpp.
+// StageKkt::solve() and its sweeps, with the factors of stage_kkt.cpp.
 #include <algorithm>
 #include <limits>
 
