@@ -5,46 +5,15 @@
 #include <algorithm>
 #include <limits>
 
-#include "tests/support/robots.hpp"
+#include "tests/mpc/trot.hpp"
 
 namespace prowl {
 namespace {
 
 using Eigen::VectorXd;
+using test::Trot;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Two feet of HyQ swing from 0 to 0.2 s, while the robot stands on level ground.
-struct Trot {
-  MpcOptions options;
-  RobotModel robot{test::hyq_description()};
-  HorizonProgram program{robot, options.weights, options.friction, options.steps};
-  HorizonSolver solver{program, options.barrier, options.iterations, options.feedback_iterations};
-  HorizonGrid grid{options.steps, options.first_step, options.least_horizon};
-  ContactTimeline timeline{4, 0.0};
-  GroundPlane ground{4, robot.size()};
-  HorizonBounds bounds{program, options};
-
-  explicit Trot(double start = 0.0) {
-    timeline.follow({.groups = {{0, 3}, {1, 2}}, .stride = 0.5, .duty_factor = 0.6});
-    timeline.extend(0.0, 1.5);
-    lay(start);
-  }
-  void lay(double start) {
-    grid.lay(start, timeline);
-    const VectorXd still = VectorXd::Zero(robot.nv());
-    for (int k = 0; k < options.steps; ++k) {
-      program.set_stage(k, program.standing_posture(), still, still, VectorXd::Zero(robot.nu()));
-      program.step(k).length = grid.step(k);
-      program.step(k).standing = timeline.standing(grid.middle(k));
-    }
-    bounds.set(grid, timeline, ground, solver);
-  }
-  double lower(int k, int row) { return solver.rows(k).lower()(row) * program.row_unit(row); }
-  double upper(int k, int row) { return solver.rows(k).upper()(row) * program.row_unit(row); }
-  double lower_height(int k, int foot) { return lower(k, program.height_row(foot)); }
-  double upper_height(int k, int foot) { return upper(k, program.height_row(foot)); }
-};
 
 TEST(HorizonBounds, LimitsAreThoseOfTheRobot) {
   Trot trot;
